@@ -1,0 +1,98 @@
+"""The plain data that passes between stages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["GAP", "Atlas", "Bools", "CutMesh", "Floats", "Ints", "Mesh", "Outlines", "Scan", "Stitching"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+GAP = -1  # the label of faces that belong to no piece
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A triangle mesh in mm: manifold, oriented outward, without unused vertices."""
+
+    V: Floats  # (n, 3)
+    F: Ints  # (m, 3)
+
+
+@dataclass(frozen=True)
+class Scan:
+    """What came out of a file: the mesh to work on, what was loaded, and what was done to it."""
+
+    mesh: Mesh
+    source: Any  # the trimesh.Trimesh as loaded; UVs, textures and colours are sampled from it
+    to_source: Floats  # (4, 4), takes mesh coordinates back to those of source
+    facts: dict[str, Any] = field(default_factory=dict)  # the report's "input"
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """A mesh cut into charts, each flattened to the plane in mm.
+
+    All charts lie in one plane without touching each other. A vertex on a seam has one row in uv
+    for every chart (or side of a cut) that it belongs to.
+    """
+
+    mesh: Mesh
+    uv: Floats  # (k, 2), mm
+    F_uv: Ints  # (m, 3), corners into uv
+    chart_of_face: Ints  # (m,)
+    facts: dict[str, Any] = field(default_factory=dict)  # the report's "charts"
+
+    @property
+    def n_charts(self) -> int:
+        """Count the charts."""
+        return int(self.chart_of_face.max(initial=-1)) + 1
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """A planar graph of cuts: segments with a label on either side.
+
+    Segments meet at shared points only. Every point has at least two segments: curves are closed,
+    or end where other curves begin.
+    """
+
+    points: Floats  # (n, 2), mm
+    segments: Ints  # (k, 2), into points
+    left: Ints  # (k,), label on the left of a segment
+    right: Ints  # (k,), label on its right
+
+
+@dataclass(frozen=True)
+class CutMesh:
+    """A mesh whose faces were cut along outlines; it conforms, over seams too.
+
+    The vertices of the mesh come first and keep their numbers.
+    """
+
+    V: Floats  # (n, 3)
+    F: Ints  # (m, 3)
+    parent: Ints  # (m,), the face of the mesh that a face was cut from
+    label: Ints  # (m,), the outlines' label
+    region: Ints  # (m,), connected parts of one label inside one chart
+    vertex_face: Ints  # (n,), a face of the mesh that the vertex lies in
+    vertex_bary: Floats  # (n, 3), where it lies in that face
+    point_vertex: Ints  # (p,), the vertex made for a point of the outlines, or -1 where it missed the mesh
+    cuts: Ints  # (c, 2), edges along the outlines, in the direction of their segment
+    cut_segment: Ints  # (c,), the segment of the outlines
+    cut_param: Floats  # (c, 2), where the edge starts and ends on its segment, 0 to 1
+    facts: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Stitching:
+    """Which regions make which piece."""
+
+    piece_of_region: Ints  # (r,)
+    facts: dict[str, Any] = field(default_factory=dict)
