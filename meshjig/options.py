@@ -40,14 +40,22 @@ class Options(BaseModel):
     stitch: float = Field(0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam")
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     seed: int = Field(0, ge=0, description="seed of everything random")
+    format: tuple[Literal["stl", "3mf", "obj", "glb"], ...] = Field(
+        ("stl", "3mf"), description="file formats to write, separated by commas"
+    )
+    curves: bool = Field(False, description="also write the cut curves: SVG in the plane, OBJ and DXF in space")
 
     @model_validator(mode="before")
     @classmethod
     def _fill_from_process(cls, given: Any) -> Any:
         if not isinstance(given, dict):
             return given
-        preset = PROCESSES.get(given.get("process") or "fdm", {})
-        return {**preset, **{k: v for k, v in given.items() if v is not None}}
+        given = {k: v for k, v in given.items() if v is not None}
+        if isinstance(given.get("format"), str):
+            given["format"] = tuple(part.strip() for part in given["format"].split(",") if part.strip())
+        process = given.get("process", "fdm")
+        preset = PROCESSES.get(process, {}) if isinstance(process, str) else {}
+        return {**preset, **given}
 
     @model_validator(mode="after")
     def _agree(self) -> Options:

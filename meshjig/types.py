@@ -8,7 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["GAP", "Atlas", "Bools", "CutMesh", "Floats", "Ints", "Mesh", "Outlines", "Scan", "Stitching"]
+__all__ = [
+    "GAP",
+    "Atlas",
+    "Bools",
+    "CutMesh",
+    "Floats",
+    "Ints",
+    "Knobs",
+    "Mesh",
+    "Outlines",
+    "RegionGraph",
+    "Scan",
+    "Stitching",
+]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -70,6 +83,15 @@ class Outlines:
 
 
 @dataclass(frozen=True)
+class Knobs:
+    """Where the knobs are in a planar graph of cuts."""
+
+    neck: Ints  # (k, 2), the points on either side of the neck
+    head: Ints  # (k, 2), the points on either side of the head, where it is widest
+    span: Ints  # (k, 2), first segment of the knob, and the one after its last
+
+
+@dataclass(frozen=True)
 class CutMesh:
     """A mesh whose faces were cut along outlines; it conforms, over seams too.
 
@@ -91,8 +113,23 @@ class CutMesh:
 
 
 @dataclass(frozen=True)
+class RegionGraph:
+    """Regions of a cut surface and the borders between them."""
+
+    area: Floats  # (r,), mm2
+    pairs: Ints  # (b, 2), regions on both sides of a border, lower first; a pair may stand twice, as seam and cut
+    length: Floats  # (b,), mm
+    seam: Bools  # (b,), the border is a chart border
+
+
+@dataclass(frozen=True)
 class Stitching:
     """Which regions make which piece."""
 
     piece_of_region: Ints  # (r,)
     facts: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def n_pieces(self) -> int:
+        """Count the pieces."""
+        return int(self.piece_of_region.max(initial=-1)) + 1

@@ -1,0 +1,62 @@
+"""Any triangle mesh, 3D scans first of all, as a printable 3D jigsaw puzzle of its surface.
+
+>>> import meshjig
+>>> puzzle = meshjig.make_puzzle("bunny.obj", pieces=100)  # doctest: +SKIP
+>>> puzzle.save("bunny-jigsaw")  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from meshjig.errors import (
+    ChartError,
+    CutError,
+    InputError,
+    MeshjigError,
+    OptionError,
+    OutputError,
+    SolidError,
+)
+
+_HOMES = {
+    "Atlas": "meshjig.types",
+    "CutMesh": "meshjig.types",
+    "Mesh": "meshjig.types",
+    "Options": "meshjig.options",
+    "Outlines": "meshjig.types",
+    "Piece": "meshjig.puzzle",
+    "Puzzle": "meshjig.puzzle",
+    "build_atlas": "meshjig.charts",
+    "displacement": "meshjig.solid",
+    "make_puzzle": "meshjig.pipeline",
+    "overlay": "meshjig.cut",
+    "read_scan": "meshjig.scan",
+    "repair": "meshjig.scan",
+    "solidify": "meshjig.solid",
+    "stitch": "meshjig.stitch",
+    "tile_charts": "meshjig.tiling",
+}
+
+__all__ = [
+    "ChartError",
+    "CutError",
+    "InputError",
+    "MeshjigError",
+    "OptionError",
+    "OutputError",
+    "SolidError",
+    *_HOMES,
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name where it lives, when it is first used: imports cost a command its start."""
+    if name in _HOMES:
+        return getattr(importlib.import_module(_HOMES[name]), name)
+    raise AttributeError(f"module 'meshjig' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

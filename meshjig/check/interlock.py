@@ -1,0 +1,100 @@
+"""How well neighbouring pieces hold each other: knobs, necks and heads, measured in space."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshjig.topology import edges
+from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
+
+__all__ = ["Interlock", "interlock"]
+
+
+@dataclass(frozen=True)
+class Interlock:
+    """The borders between pieces and the knobs on them."""
+
+    pairs: Ints  # (b, 2), neighbouring pieces, lower first
+    length: Floats  # (b,), mm of border between them
+    knobs_of_pair: Ints  # (b,), whole knobs on that border
+    knob_pair: Ints  # (k,), the pair that a whole knob joins, as a row of pairs
+    head: Floats  # (k,), width of a whole knob's head, mm
+    neck: Floats  # (k,), width of its neck, mm
+
+    @property
+    def interlocked_borders(self) -> float | None:
+        """Share of the borders with a knob."""
+        return float((self.knobs_of_pair > 0).mean()) if len(self.pairs) else None
+
+    @property
+    def interlocked_length(self) -> float | None:
+        """Share of the length of all borders that belongs to borders with a knob."""
+        total = float(self.length.sum())
+        return float(self.length[self.knobs_of_pair > 0].sum()) / total if total > 0 else None
+
+
+def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
+    """Find the borders between pieces, and the knobs that are whole.
+
+    A knob is whole when its curve lies on the surface from one side of the neck to the other, with
+    the same two pieces on its sides all along. Head and neck are straight distances in space between
+    points of the cut.
+
+    Parameters
+    ----------
+    cut : CutMesh, cut at zero width
+    knobs : Knobs
+    piece_of_face : (m,) int64
+    """
+    n = np.int64(len(cut.V))
+    e = edges(cut.F)
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    sides = np.sort(np.stack([piece_of_face[h // 3], piece_of_face[e.twin[h] // 3]], 1), axis=1)
+    border = sides[:, 0] != sides[:, 1]
+    ends, sides = e.E[e.edge_of_halfedge[h[border]]], sides[border]
+    n_pieces = np.int64(piece_of_face.max(initial=0)) + 1
+    keys, pair_of_edge = np.unique(sides[:, 0] * n_pieces + sides[:, 1], return_inverse=True)
+    length = np.bincount(pair_of_edge, np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1), len(keys))
+
+    pair_of_cut = _lookup(ends[:, 0] * n + ends[:, 1], pair_of_edge, cut.cuts.min(1) * n + cut.cuts.max(1))
+    whole, knob_pair = _whole_knobs(cut, knobs, pair_of_cut)
+    head, neck = (_width(cut, points[whole]) for points in (knobs.head, knobs.neck))
+    return Interlock(
+        np.stack([keys // n_pieces, keys % n_pieces], 1),
+        length,
+        np.bincount(knob_pair, minlength=len(keys)),
+        knob_pair,
+        head,
+        neck,
+    )
+
+
+def _lookup(keys: Ints, values: Ints, wanted: Ints) -> Ints:
+    """Give the value of every wanted key, -1 where there is none."""
+    if not len(keys):
+        return np.full(len(wanted), -1)
+    order = np.argsort(keys)
+    at = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
+    return np.where(keys[at] == wanted, values[at], -1)
+
+
+def _whole_knobs(cut: CutMesh, knobs: Knobs, pair_of_cut: Ints) -> tuple[Bools, Ints]:
+    """Tell which knobs are whole, (k,) bool, and which pair each of those joins."""
+    n_segments = max(int(cut.cut_segment.max(initial=-1)), int(knobs.span.max(initial=0))) + 1
+    covered = np.bincount(cut.cut_segment, cut.cut_param[:, 1] - cut.cut_param[:, 0], n_segments)
+    lowest = np.full(n_segments, np.iinfo(np.int64).max)
+    highest = np.full(n_segments, -1)
+    np.minimum.at(lowest, cut.cut_segment, pair_of_cut)
+    np.maximum.at(highest, cut.cut_segment, pair_of_cut)
+    good = (covered > 1 - 1e-6) & (lowest == highest) & (lowest >= 0)
+    bad_before = np.concatenate([[0], np.cumsum(~good)])
+    changes = np.concatenate([[0, 0], np.cumsum(lowest[1:] != lowest[:-1])])
+    first, after = knobs.span[:, 0], knobs.span[:, 1]
+    whole = (bad_before[after] == bad_before[first]) & (changes[after] == changes[first + 1])
+    whole &= (cut.point_vertex[knobs.head] >= 0).all(1) & (cut.point_vertex[knobs.neck] >= 0).all(1)
+    return whole, lowest[first[whole]]
+
+
+def _width(cut: CutMesh, points: Ints) -> Floats:
+    x = cut.V[cut.point_vertex[points]]
+    return np.linalg.norm(x[:, 0] - x[:, 1], axis=1)

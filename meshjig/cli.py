@@ -1,0 +1,228 @@
+"""The command line: parse, call the library, print."""
+
+from __future__ import annotations
+
+import json
+import logging
+import sys
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from meshjig.errors import MeshjigError, OptionError
+from meshjig.options import Options
+
+__all__ = ["app", "main"]
+
+FAILED, USAGE, BROKEN_PROMISE = 1, 2, 3
+
+app = typer.Typer(
+    name="meshjig",
+    help="Turn a triangle mesh into a printable 3D jigsaw puzzle of its surface.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+def _flag(name: str, *spellings: str) -> Any:
+    return typer.Option(*spellings, help=str(Options.model_fields[name].description), show_default=False)
+
+
+MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, GLB or 3MF file")]
+AsJson = Annotated[bool, typer.Option("--json", help="print the result as JSON on standard output")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    context: typer.Context,
+    show_version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
+) -> None:
+    if show_version:
+        from meshjig.report import meshjig_version
+
+        print(meshjig_version())
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+@app.command()
+def make(
+    mesh: MeshPath,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
+    ] = None,
+    pieces: Annotated[int | None, _flag("pieces", "--pieces")] = None,
+    piece_size: Annotated[float | None, _flag("piece_size", "--piece-size")] = None,
+    size: Annotated[float | None, _flag("size", "--size")] = None,
+    faces: Annotated[str | None, _flag("faces", "--faces")] = None,
+    thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
+    clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
+    min_neck: Annotated[float | None, _flag("min_neck", "--min-neck")] = None,
+    clearance_method: Annotated[str | None, _flag("clearance_method", "--clearance-method")] = None,
+    process: Annotated[str | None, _flag("process", "--process")] = None,
+    layout: Annotated[str | None, _flag("layout", "--layout")] = None,
+    tile: Annotated[str | None, _flag("tile", "--tile")] = None,
+    charts: Annotated[str | None, _flag("charts", "--charts")] = None,
+    stitch: Annotated[float | None, _flag("stitch", "--stitch")] = None,
+    cavities: Annotated[bool | None, _flag("cavities", "--cavities/--no-cavities")] = None,
+    seed: Annotated[int | None, _flag("seed", "--seed")] = None,
+    format: Annotated[str | None, _flag("format", "--format")] = None,
+    curves: Annotated[bool | None, _flag("curves", "--curves/--no-curves")] = None,
+    config: Annotated[
+        Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
+    ] = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Make a puzzle: pieces, 3MF, preview and report."""
+    flags = {name: value for name, value in locals().items() if name in Options.model_fields}
+    with _sentences(verbose, quiet):
+        options = _options(config, flags)
+        from meshjig.output import check_target
+        from meshjig.pipeline import make_puzzle
+
+        target = output or Path(f"{Path(mesh).stem}-jigsaw")
+        check_target(target)
+        with _progress(quiet or verbose) as progress:
+            puzzle = make_puzzle(mesh, progress=progress, options=options)
+            if progress:
+                progress("write", "start")
+            puzzle.save(target)
+        if as_json:
+            print((target / "report.json").read_text(encoding="utf-8"))
+        if not quiet:
+            _say(f"{len(puzzle.pieces)} pieces in {target}")
+    if not puzzle.report["ok"]:
+        _tell_broken(puzzle.report["failures"])
+        raise typer.Exit(BROKEN_PROMISE)
+
+
+@app.command()
+def info(mesh: MeshPath, as_json: AsJson = False, verbose: Verbose = False, quiet: Quiet = False) -> None:
+    """Say what a mesh is, and what would be done to it."""
+    with _sentences(verbose, quiet):
+        from meshjig.scan import describe
+
+        facts = describe(mesh)
+        print(json.dumps(facts, indent=2) if as_json else _as_lines(facts))
+
+
+@app.command()
+def check(
+    paths: Annotated[list[Path], typer.Argument(metavar="DIR|FILES", help="a folder of pieces, or files")],
+    thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
+    clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Judge finished pieces by their files alone, whatever made them."""
+    with _sentences(verbose, quiet):
+        from meshjig.check import judge
+        from meshjig.output.read import read_pieces
+
+        verdict = judge(read_pieces(paths), thickness=thickness, clearance=clearance)
+        result = {"checks": verdict.checks, "failures": verdict.failures, "ok": verdict.ok}
+        print(json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks))
+    if not verdict.ok:
+        _tell_broken(verdict.failures)
+        raise typer.Exit(BROKEN_PROMISE)
+
+
+def main() -> None:
+    """Run the command line."""
+    app()
+
+
+def _options(config: Path | None, flags: dict[str, Any]) -> Options:
+    given: dict[str, Any] = {}
+    try:
+        if config is not None:
+            given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
+        given.update({name: value for name, value in flags.items() if value is not None})
+        return Options.of(**given)
+    except OptionError as error:
+        _say(f"meshjig: {error}")
+        raise typer.Exit(USAGE) from None
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise OptionError(f"config: {path} is no valid TOML ({error})") from None
+
+
+@contextmanager
+def _sentences(verbose: bool, quiet: bool) -> Iterator[None]:
+    """Turn whatever goes wrong into one sentence on standard error, and an exit code."""
+    level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
+    logging.basicConfig(level=level, stream=sys.stderr, format="%(message)s")
+    logging.getLogger("meshjig").setLevel(level)
+    try:
+        yield
+    except MeshjigError as error:
+        _say(f"meshjig: {error}")
+        raise typer.Exit(FAILED) from None
+    except KeyboardInterrupt:
+        _say("meshjig: interrupted; nothing was written")
+        raise typer.Exit(130) from None
+    except MemoryError:
+        _say("meshjig: not enough memory: use fewer faces (--faces)")
+        raise typer.Exit(FAILED) from None
+    except typer.Exit:
+        raise
+    except Exception as error:
+        if verbose:
+            logging.getLogger("meshjig").exception("unexpected failure")
+        reason = f"{type(error).__name__}: {error}".splitlines()[0]
+        _say(f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where")
+        raise typer.Exit(FAILED) from None
+
+
+@contextmanager
+def _progress(off: bool) -> Iterator[Callable[[str, str], None] | None]:
+    """Show the stage that runs, on standard error, when somebody watches."""
+    if off or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("scan")
+        yield lambda stage, event: bar.update(task, description=stage) if event == "start" else None
+
+
+def _tell_broken(failures: dict[str, list[str]]) -> None:
+    for promise, names in failures.items():
+        shown = ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
+        _say(f"meshjig: broken promise: {promise}" + (f" ({shown})" if names else ""))
+
+
+def _as_lines(facts: dict[str, Any], indent: str = "") -> str:
+    lines = []
+    for key, value in facts.items():
+        if isinstance(value, dict):
+            lines.append(f"{indent}{key}:")
+            lines.append(_as_lines(value, indent + "  "))
+        else:
+            shown = f"{value:.4g}" if isinstance(value, float) else "not known" if value is None else value
+            lines.append(f"{indent}{key}: {shown}")
+    return "\n".join(lines)
+
+
+def _say(sentence: str) -> None:
+    print(sentence, file=sys.stderr)

@@ -1,0 +1,161 @@
+"""The gap between pieces, as a band of closed curves in the plane."""
+
+from typing import Any, Literal
+
+import numpy as np
+
+from meshjig.cut.borders import PlaneCurves, SeamEdges, cut_borders, seam_borders
+from meshjig.cut.metric import face_metric, half_width
+from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
+
+__all__ = ["gap_outlines"]
+
+WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
+GRID = 2.0**-12  # mm, where the band's corners come to lie
+ARC = 6  # corners of a quarter circle
+
+
+def gap_outlines(
+    atlas: Atlas,
+    cut: CutMesh,
+    outlines: Outlines,
+    piece_of_face: Ints,
+    clearance: float,
+    method: Literal["stretch", "domain"] = "stretch",
+) -> Outlines:
+    """Outline a band of constant width around every border between two pieces.
+
+    With ``stretch`` the width in the plane makes up for the stretch of the chart, so that the gap on
+    the surface is the clearance. With ``domain`` the width in the plane is the clearance itself.
+    A band that runs over a seam where a piece goes on is carried to the chart on the other side.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    cut : CutMesh, the atlas' mesh cut along the outlines at zero width
+    outlines : Outlines
+    piece_of_face : (m,) int64, for the faces of cut
+    clearance : float, mm, the whole gap
+    method : "stretch" or "domain"
+
+    Returns
+    -------
+    Outlines, closed curves; GAP inside the band, 0 outside
+
+    References
+    ----------
+    Elber and Kim, "Synthesis of 3D Jigsaw Puzzles over Freeform 2-Manifolds", section 3.1.2, for the
+    offset in the domain.
+    """
+    import shapely
+
+    curves = cut_borders(cut, outlines, piece_of_face)
+    seams = seam_borders(atlas, cut, piece_of_face)
+    curve_width = _widths(atlas, curves.start, curves.end, curves.parent, clearance, method)
+    seam_width = _widths(atlas, seams.start, seams.end, seams.parent, clearance, method)
+    active = seams.active
+    shapes = np.concatenate(
+        [
+            _buffered_curves(curves, curve_width),
+            _buffered(seams.start[active], seams.end[active], seam_width[active]),
+            _carried_over(cut, curves, seams, seam_width, clearance),
+        ]
+    )
+    band = shapely.union_all(shapes)
+    band = shapely.set_precision(shapely.simplify(band, GRID), GRID)
+    return _as_outlines(band, clearance)
+
+
+def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: float, method: str) -> Floats:
+    if method == "domain":
+        return np.full(len(start), clearance / 2)
+    width = half_width(face_metric(atlas, parent), end - start, clearance)
+    return np.clip(width, clearance / 6, 1.5 * clearance)
+
+
+def _buffered_curves(curves: PlaneCurves, width: Floats) -> np.ndarray:
+    """Buffer runs of stretches that follow each other and have nearly the same width."""
+    import shapely
+
+    length = np.linalg.norm(curves.end - curves.start, axis=1)
+    run = np.cumsum(~curves.follows) - 1
+    step = np.rint(np.log(_smooth(width, length, run)) / WIDTH_STEP)
+    new = ~curves.follows
+    new[1:] |= step[1:] != step[:-1]
+    first = np.flatnonzero(new)
+    if not len(first):
+        return np.zeros(0, object)
+    group = np.cumsum(new) - 1
+    last = np.append(first[1:], len(new)) - 1
+    points = np.vstack([curves.start, curves.end[last]])
+    line = np.concatenate([group, np.arange(len(first))])
+    order = np.argsort(line, kind="stable")
+    lines = shapely.linestrings(points[order], indices=line[order])
+    half = np.exp(step[first] * WIDTH_STEP)
+    return shapely.buffer(shapely.simplify(lines, GRID), half, quad_segs=ARC)
+
+
+def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
+    """Average the width along each run over about half a millimetre, so that noise cancels out."""
+    cell = run * 1_000_000 + np.floor(np.cumsum(length) / 0.5).astype(np.int64)
+    _, where = np.unique(cell, return_inverse=True)
+    weight = np.maximum(length, 1e-9)
+    mean = np.bincount(where, weight * width) / np.bincount(where, weight)
+    return mean[where]
+
+
+def _buffered(start: Floats, end: Floats, width: Floats) -> np.ndarray:
+    import shapely
+
+    return shapely.buffer(shapely.linestrings(np.stack([start, end], 1)), width, quad_segs=ARC)
+
+
+def _carried_over(
+    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float
+) -> np.ndarray:
+    """Give discs beyond inner seams where a border on this side is nearer than half the clearance."""
+    import shapely
+    from scipy.spatial import cKDTree
+
+    inner = np.flatnonzero(~seams.active)
+    if not len(inner) or not len(curves.start):
+        return np.zeros(0, object)
+    step = clearance / 6
+    row, t = _samples(seams.end[inner] - seams.start[inner], step)
+    row = inner[row]
+    seam_uv = seams.start[row] + (seams.end[row] - seams.start[row]) * t[:, None]
+    stretch, s = _samples(curves.end - curves.start, step)
+    curve_uv = curves.start[stretch] + (curves.end[stretch] - curves.start[stretch]) * s[:, None]
+    ratio = clearance / 2 / width[row]  # mm on the surface for a mm in the plane
+    distance, _ = cKDTree(curve_uv).query(seam_uv, distance_upper_bound=1.5 * clearance)
+    left = clearance / 2 - distance * ratio
+    near = left > 0.02 * clearance
+    row, t = row[near], t[near]
+    mate = seams.mate[row]
+    beyond = seams.end[mate] + (seams.start[mate] - seams.end[mate]) * t[:, None]
+    return shapely.buffer(shapely.points(beyond), left[near] * width[mate] * 2 / clearance, quad_segs=ARC)
+
+
+def _samples(direction: Floats, step: float) -> tuple[Ints, Floats]:
+    """Spread samples over segments: the segment of each, and its place from 0 to 1."""
+    n = np.ceil(np.linalg.norm(direction, axis=1) / step).astype(np.int64) + 1
+    row = np.repeat(np.arange(len(n)), n)
+    rank = np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)
+    return row, rank / np.maximum(n[row] - 1, 1)
+
+
+def _as_outlines(band: Any, clearance: float) -> Outlines:
+    """Give the band's border, band to the left, without islands too small to be a piece."""
+    import shapely
+
+    rings = shapely.get_rings(shapely.orient_polygons(shapely.get_parts(band)))
+    rings = rings[shapely.area(shapely.polygons(rings)) > clearance**2]
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    repeats_first = np.append(ring[1:] != ring[:-1], True)
+    points, ring = points[~repeats_first], ring[~repeats_first]
+    size = np.bincount(ring, minlength=len(rings))
+    first = np.cumsum(size) - size
+    following = np.arange(1, len(points) + 1)
+    following[first + size - 1] = first
+    segments = np.stack([np.arange(len(points)), following], 1)
+    return Outlines(points, segments, np.full(len(points), GAP), np.zeros(len(points), np.int64))
