@@ -87,7 +87,7 @@ def make(
     flags = {name: value for name, value in locals().items() if name in Options.model_fields}
     with _sentences(verbose, quiet):
         options = _options(config, flags)
-        from meshjig.output import check_target
+        from meshjig.output.folder import check_target
         from meshjig.pipeline import make_puzzle
 
         target = output or Path(f"{Path(mesh).stem}-jigsaw")

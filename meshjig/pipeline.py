@@ -9,12 +9,16 @@ import numpy as np
 
 from meshjig.charts import build_atlas
 from meshjig.check import judge
-from meshjig.check.interlock import Interlock, interlock
-from meshjig.cut import carry_pieces, cut_curves, gap_outlines, overlay
+from meshjig.check.interlock import interlock
+from meshjig.cut.carry import carry_pieces
+from meshjig.cut.clearance import gap_outlines
+from meshjig.cut.curves import cut_curves
+from meshjig.cut.overlay import overlay
 from meshjig.errors import OptionError
 from meshjig.measure import face_areas, interpolate
 from meshjig.options import Options
-from meshjig.output import distinct_colours, printable
+from meshjig.output.colours import colours
+from meshjig.output.printable import printable
 from meshjig.progress import Progress, Stages
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.report import assemble_report
@@ -23,7 +27,7 @@ from meshjig.sizing import choose_tiles
 from meshjig.solid import displacement, solidify
 from meshjig.stitch import region_graph, stitch
 from meshjig.tiling import FAMILIES, tile_charts
-from meshjig.types import Atlas, CutMesh, Ints, Knobs, Mesh, Outlines, Scan, Stitching
+from meshjig.types import Atlas, CutMesh, Ints, Knobs, Mesh, Outlines, Stitching
 
 __all__ = ["make_puzzle"]
 
@@ -72,7 +76,8 @@ def make_puzzle(
     with stages("solid"):
         D, thickness = displacement(surface.V, surface.F, options.thickness)
         D = interpolate(D, surface.F, parts.vertex_face, parts.vertex_bary)
-        solids = [printable(V, F) for V, F, *_ in solidify(parts.V, parts.F, piece_of_part, D)]
+        raw, facts = solidify(parts.V, parts.F, piece_of_part, D)
+        solids = [printable(solid.V, solid.F) for solid in raw]
     with stages("check"):
         locks = interlock(cut, knobs, piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
@@ -82,10 +87,13 @@ def make_puzzle(
             thickness=options.thickness,
             clearance=options.clearance,
         )
-    colours = distinct_colours(len(solids), locks.pairs)
-    pieces = [Piece(i + 1, V, F, tuple(colours[i])) for i, (V, F) in enumerate(solids)]
+    tints = colours(len(solids), locks.pairs)
+    pieces = [
+        Piece(name, V, F, tuple(tint), i + 1)
+        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
+    ]
     report = assemble_report(
-        options, scan, atlas, cut, stitching, piece_of_face, locks, verdict, solids, thickness, discarded, stages
+        options, scan, atlas, cut, stitching, piece_of_face, locks, verdict, solids, thickness | facts, discarded, stages
     )
     return Puzzle(pieces, report, _curves(cut, outlines, piece_of_face) if options.curves else Curves())
 
@@ -163,5 +171,3 @@ def _curves(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> Curves:
     plane, space = cut_curves(cut, outlines)
     return Curves(plane, space)
 
-
-_ = Interlock, Scan

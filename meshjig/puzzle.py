@@ -8,26 +8,21 @@ from pathlib import Path
 from typing import Any
 
 from meshjig.errors import InputError
-from meshjig.output import save_puzzle
+from meshjig.output import piece as named
 from meshjig.output.read import read_pieces
-from meshjig.types import Floats, Ints
+from meshjig.output.save import save_puzzle
+from meshjig.types import Floats
 
 __all__ = ["Curves", "Piece", "Puzzle"]
 
+GREY = (0.7, 0.7, 0.7)  # files of single pieces have no colour
+
 
 @dataclass(frozen=True)
-class Piece:
+class Piece(named.Piece):
     """One piece of a puzzle, in its place on the model."""
 
-    id: int
-    V: Floats  # (n, 3), mm
-    F: Ints  # (m, 3)
-    colour: tuple[float, float, float] = (0.7, 0.7, 0.7)
-
-    @property
-    def name(self) -> str:
-        """The name that the piece has in files."""
-        return f"piece_{self.id:03d}"
+    id: int = 0  # counted from 1
 
     @property
     def mesh(self) -> Any:
@@ -73,14 +68,18 @@ class Puzzle:
         OutputError
             The folder can't be written, or holds something else.
         """
-        return save_puzzle(
-            directory,
-            [(p.name, p.V, p.F, p.colour) for p in self.pieces],
-            self.report,
-            formats=formats if formats is not None else tuple(self.report["options"]["format"]),
-            curves=(self.curves.plane, self.curves.space) if self.curves.space else None,
-            preview=preview,
+        self.report.update(
+            save_puzzle(
+                directory,
+                self.pieces,
+                self.report,
+                formats=formats if formats is not None else self.report["options"]["format"],
+                plane_curves=self.curves.plane,
+                space_curves=self.curves.space,
+                preview=preview,
+            )
         )
+        return Path(directory)
 
     @classmethod
     def load(cls, directory: str | Path) -> Puzzle:
@@ -98,8 +97,9 @@ class Puzzle:
             report = json.loads(path.read_text(encoding="utf-8"))
         except ValueError:
             raise InputError(f"{path} is no valid JSON", hint="make the puzzle again") from None
+        listed = [piece["id"] for piece in report.get("pieces", [])]
         pieces = [
-            Piece(int(name.rsplit("_", 1)[-1]) if name.rsplit("_", 1)[-1].isdigit() else i + 1, V, F)
+            Piece(name, V, F, GREY, listed[i] if i < len(listed) else i + 1)
             for i, (name, V, F) in enumerate(read_pieces(directory))
         ]
         return cls(pieces, report)

@@ -10,7 +10,9 @@ from meshjig.types import GAP, CutMesh, Floats, Ints, Mesh
 __all__ = ["carry_pieces"]
 
 
-def carry_pieces(mesh: Mesh, without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh) -> tuple[Ints, Ints]:
+def carry_pieces(
+    mesh: Mesh, without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh
+) -> tuple[Ints, Ints]:
     """Name the parts that are left between gaps after the pieces of the same surface without gaps.
 
     Parameters

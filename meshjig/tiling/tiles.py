@@ -17,6 +17,7 @@ __all__ = ["FAMILIES", "tile_charts"]
 FAMILIES: dict[str, Callable[[int], Template]] = {"classic": classic, "rectangular": rectangular}
 
 POINT_DISTANCE = 0.6  # mm along a tile's edge
+BESIDE = 1.0  # mm that cuts go on beyond a chart, less than the distance between charts
 # side, place along the edge, scale: what is tried in turn until the knob lies inside the chart
 _TRIES = [(s, p, k) for k in (1.0, 0.8) for p in (0.0, 0.12, -0.12) for s in (1, -1) if (k, p) != (1.0, 0.12)]
 
@@ -50,7 +51,7 @@ def tile_charts(
     outlines : Outlines, labels are tiles
     knobs : Knobs
     """
-    template = FAMILIES[family](int(np.clip(np.ceil(1.7 * size / POINT_DISTANCE / 5), 4, 24)))
+    template = FAMILIES[family](int(np.clip(np.ceil(1.7 * size / POINT_DISTANCE / 5), 4, 80)))
     rng = np.random.default_rng(seed)
     parts = []
     first_tile = 0
@@ -68,7 +69,7 @@ def _tile_chart(
 
     ends, left, right = grid.inner_edges()
     nodes = grid.nodes().reshape(-1, 2)
-    near = shapely.buffer(polygon, 0.02 * grid.size)
+    near = shapely.buffer(polygon, BESIDE)
     shapely.prepare(near)
     chosen, curves = _choose_knobs(polygon, nodes[ends], template, min_neck / grid.size, rng)
     kept = shapely.intersects(near, shapely.linestrings(curves))
@@ -81,12 +82,13 @@ def _tile_chart(
     ids = np.concatenate([ends[:, :1], inner, ends[:, 1:]], 1)
     points = np.vstack([nodes[used], curves[:, 1:-1].reshape(-1, 2)])
     segments = np.stack([ids[:, :-1].ravel(), ids[:, 1:].ravel()], 1)
-    outlines = Outlines(
-        points, segments, np.repeat(left + first_tile, n - 1), np.repeat(right + first_tile, n - 1)
-    )
     knobbed = np.flatnonzero(chosen)
     span = knobbed[:, None] * (n - 1) + np.array(template.neck)
-    return outlines, Knobs(ids[knobbed][:, template.neck], ids[knobbed][:, template.head], span)
+    beside = shapely.contains_xy(near, points)[segments].any(1)  # the rest could reach other charts
+    kept_before = np.concatenate([[0], np.cumsum(beside)])
+    labels = (np.repeat(tile + first_tile, n - 1)[beside] for tile in (left, right))
+    outlines = Outlines(points, segments[beside], *labels)
+    return outlines, Knobs(ids[knobbed][:, template.neck], ids[knobbed][:, template.head], kept_before[span])
 
 
 def _choose_knobs(

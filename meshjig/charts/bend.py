@@ -1,0 +1,69 @@
+"""How much a region must stretch to lie flat, told without flattening it."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.measure import face_areas
+from meshjig.topology import edges
+
+__all__ = ["Bend"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class Bend:
+    """Answers the spread of scale that flattening a region of a mesh takes.
+
+    The conformal map with the least spread of scale has a constant scale along the border; the
+    logarithm of its scale then solves Poisson's equation for the Gaussian curvature. The matrix
+    and the curvature are those of the whole mesh, cut to the region's inner vertices: a few
+    milliseconds, where the flattening takes fifty.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold
+
+    References
+    ----------
+    Ben-Chen et al., "Conformal Flattening by Curvature Prescription and Metric Scaling", 2008.
+    """
+
+    def __init__(self, V: Floats, F: Ints) -> None:
+        import igl
+
+        self._F = F
+        self._area = face_areas(V, F)
+        self._laplacian = -igl.cotmatrix(V, F).tocsr()
+        angles = np.nan_to_num(igl.internal_angles(V, F))
+        self._curvature = 2 * np.pi - np.bincount(F.ravel(), angles.ravel(), len(V))
+        self._n_faces = np.bincount(F.ravel(), minlength=len(V))
+        e = edges(F)
+        self._n_faces[e.E[e.count == 1].ravel()] = -1  # a border vertex is inner to no region
+
+    def spread(self, faces: Ints) -> float:
+        """Give the spread of log scale over the middle 99 % of the area of some faces.
+
+        Parameters
+        ----------
+        faces : (k,) int64, a disc
+        """
+        from scipy.sparse.linalg import splu
+
+        G = self._F[faces]
+        inner = np.flatnonzero(np.bincount(G.ravel(), minlength=len(self._n_faces)) == self._n_faces)
+        if not len(inner):
+            return 0.0
+        matrix = self._laplacian[inner][:, inner].tocsc()
+        scale = np.zeros(len(self._n_faces))
+        try:
+            solver = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+            scale[inner] = solver.solve(self._curvature[inner])
+        except RuntimeError:  # singular: faces without area
+            return np.inf
+        u = scale[G].mean(1)
+        order = np.argsort(u)
+        share = np.cumsum(self._area[faces][order])
+        low, high = np.searchsorted(share, [0.005 * share[-1], 0.995 * share[-1]])
+        return float(u[order[min(high, len(u) - 1)]] - u[order[low]])

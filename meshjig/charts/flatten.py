@@ -1,0 +1,113 @@
+"""Flatten one chart: the method that was asked for, held to a promise that no face is mirrored."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.charts.arap import arap
+from meshjig.charts.lscm import lscm
+from meshjig.charts.slim import slim
+from meshjig.charts.tutte import tutte
+from meshjig.errors import ChartError
+from meshjig.measure import face_areas, singular_values
+
+__all__ = [
+    "FLAT_LIMITS",
+    "Method",
+    "border_is_simple",
+    "flat_share",
+    "flatten",
+    "is_unflipped",
+    "unit_stretch",
+]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Method = Literal["lscm", "arap", "slim"]
+
+FLAT_LIMITS = (0.8, 1.25)  # stretch that a person does not notice on a jigsaw tile
+_LEAST_AREA = 1e-14  # of the square of the chart's extent
+
+
+def flatten(V: Floats, F: Ints, method: Method = "slim", iterations: int = 20) -> Floats:
+    """Flatten a chart without mirrored faces, at a mean stretch of 1.
+
+    LSCM comes first; where it mirrors faces, Tutte's embedding takes its place and SLIM follows,
+    whatever the method. ARAP that mirrors faces gives way to SLIM.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, one disc that uses every vertex
+    method : str
+    iterations : int, of SLIM or ARAP
+
+    Returns
+    -------
+    uv : (n, 2) float64, mm. The area-weighted geometric mean of the stretch is 1.
+
+    Raises
+    ------
+    ChartError
+        Every way of flattening mirrored a face.
+    """
+    start, conformal = _start(V, F)
+    if method == "lscm" and conformal:
+        return unit_stretch(V, F, start)
+    if method == "arap" and conformal:
+        uv = arap(V, F, start, iterations)
+        if is_unflipped(uv, F):
+            return unit_stretch(V, F, uv)
+    uv = slim(V, F, start, iterations)
+    if not is_unflipped(uv, F):
+        uv = start
+    if not is_unflipped(uv, F):
+        raise ChartError("a chart can't be flattened without folds", hint="repair its degenerate faces")
+    return unit_stretch(V, F, uv)
+
+
+def is_unflipped(uv: Floats, F: Ints) -> bool:
+    """Tell whether every face keeps its orientation, and area enough to keep it when turned and moved."""
+    if not np.isfinite(uv).all():
+        return False
+    return bool(face_areas(uv, F).min(initial=np.inf) > _LEAST_AREA * np.ptp(uv, axis=0).max(initial=0) ** 2)
+
+
+def unit_stretch(V: Floats, F: Ints, uv: Floats) -> Floats:
+    """Scale a chart so that the geometric mean of its stretch, weighted by area, is 1."""
+    s = singular_values(V, F, uv)
+    area = face_areas(V, F)
+    log = np.log(np.maximum(s[:, 0] * np.abs(s[:, 1]), 1e-12))
+    scaled: Floats = uv / np.exp((area * log).sum() / max(area.sum(), 1e-300) / 2)
+    return scaled
+
+
+def flat_share(V: Floats, F: Ints, uv: Floats) -> float:
+    """Give the share of the area whose stretch is within FLAT_LIMITS both ways."""
+    s = singular_values(V, F, uv)
+    area = face_areas(V, F)
+    good = (s[:, 1] >= FLAT_LIMITS[0]) & (s[:, 0] <= FLAT_LIMITS[1])
+    return float(area[good].sum() / max(area.sum(), 1e-300))
+
+
+def border_is_simple(uv: Floats, F: Ints) -> bool:
+    """Tell whether a disc's border runs through the plane without meeting itself.
+
+    With no face mirrored, this makes the map one to one.
+    """
+    import igl
+    import shapely
+
+    return bool(shapely.LinearRing(uv[igl.boundary_loop(F)]).is_simple)
+
+
+def _start(V: Floats, F: Ints) -> tuple[Floats, bool]:
+    """Give a start without mirrored faces where there is one, and whether it is conformal."""
+    try:
+        uv = lscm(V, F)
+        if is_unflipped(uv, F):
+            return uv, True
+    except ChartError:
+        pass
+    return tutte(V, F), False

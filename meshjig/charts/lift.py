@@ -1,0 +1,110 @@
+"""Take points and curves of the plane through a chart onto the surface."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.charts.locate import locate
+from meshjig.measure import barycentric, interpolate
+from meshjig.types import Atlas
+
+__all__ = ["curve", "lift"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+def lift(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
+    """Map points of the plane to the surface.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    chart : int
+    uv : (k, 2) float64, mm, in the plane of the atlas
+
+    Returns
+    -------
+    face : (k,) int64, of the mesh; -1 where the point is not in the chart
+    bary : (k, 3) float64, where in the face; nan there
+    xyz : (k, 3) float64, mm; nan there
+    """
+    faces = np.flatnonzero(atlas.chart_of_face == chart)
+    local, bary = locate(atlas.uv, atlas.F_uv[faces], np.asarray(uv, np.float64).reshape(-1, 2))
+    inside = local >= 0
+    face = np.full(len(local), -1, np.int64)
+    face[inside] = faces[local[inside]]
+    xyz = np.full((len(local), 3), np.nan)
+    xyz[inside] = interpolate(atlas.mesh.V, atlas.mesh.F, face[inside], bary[inside])
+    return face, bary, xyz
+
+
+def curve(atlas: Atlas, chart: int, polyline: Floats) -> list[Floats]:
+    """Map a polyline of the plane to the surface, bending it where it crosses from face to face.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    chart : int
+    polyline : (k, 2) float64, mm, in the plane of the atlas; repeat the first point to close it
+
+    Returns
+    -------
+    list of (n, 3) float64, mm. The parts inside the chart, in order; every piece between two
+    points lies in one face.
+    """
+    line = np.asarray(polyline, np.float64).reshape(-1, 2)
+    if len(line) < 2:
+        return []
+    parameter = _crossings(atlas, chart, line)
+    points = _along(line, parameter)
+    face, _, _ = lift(atlas, chart, _along(line, (parameter[1:] + parameter[:-1]) / 2))
+    inside = np.flatnonzero(face >= 0)
+    V, F = atlas.mesh.V, atlas.mesh.F
+    ends = [_in_face(atlas, face[inside], points[inside + k]) for k in (0, 1)]
+    start, stop = (interpolate(V, F, face[inside], bary) for bary in ends)
+    breaks = np.flatnonzero(np.diff(inside) > 1) + 1
+    return [
+        np.append(start[run], stop[run[-1:]], axis=0)
+        for run in np.split(np.arange(len(inside)), breaks)
+        if len(run)
+    ]
+
+
+def _in_face(atlas: Atlas, face: Ints, points: Floats) -> Floats:
+    """Give barycentric coordinates of points that lie in or on their faces, rounding taken off."""
+    bary = np.maximum(barycentric(atlas.uv, atlas.F_uv, face, points), 0)
+    clean: Floats = bary / bary.sum(1, keepdims=True)
+    return clean
+
+
+def _crossings(atlas: Atlas, chart: int, line: Floats) -> Floats:
+    """List where a polyline has its own points and where it crosses edges: segment + share of it."""
+    import shapely
+
+    G = atlas.F_uv[atlas.chart_of_face == chart]
+    a, b = G.ravel(), np.roll(G, -1, 1).ravel()
+    E = np.unique(np.stack([np.minimum(a, b), np.maximum(a, b)], 1), axis=0)
+    tree = shapely.STRtree(shapely.linestrings(atlas.uv[E]))
+    segments = shapely.linestrings(np.stack([line[:-1], line[1:]], 1))
+    segment, edge = tree.query(segments, predicate="intersects")
+    origin, along = line[segment], line[segment + 1] - line[segment]
+    foot, side = atlas.uv[E[edge, 0]], atlas.uv[E[edge, 1]] - atlas.uv[E[edge, 0]]
+    det = _cross(along, side)
+    across = np.abs(det) > 1e-14 * np.linalg.norm(along, axis=1) * np.linalg.norm(side, axis=1)
+    t = np.clip(_cross(foot - origin, side)[across] / det[across], 0, 1)
+    every = np.sort(np.concatenate([np.arange(len(line), dtype=np.float64), segment[across] + t]))
+    # Edges that meet at a vertex give the same crossing up to rounding.
+    whole = np.rint(every)
+    every = np.where(np.abs(every - whole) < 1e-11, whole, every)
+    return every[np.append(True, np.diff(every) > 1e-11)]
+
+
+def _along(line: Floats, parameter: Floats) -> Floats:
+    segment = np.minimum(parameter.astype(np.int64), len(line) - 2)
+    t = (parameter - segment)[:, None]
+    return line[segment] * (1 - t) + line[segment + 1] * t
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    det: Floats = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return det

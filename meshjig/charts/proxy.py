@@ -1,0 +1,68 @@
+"""A light stand-in for a heavy mesh, on which charts are found quickly."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.errors import ChartError
+from meshjig.measure import vertex_normals
+from meshjig.topology import edges, fans
+
+__all__ = ["proxy"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_ROUGH = 0.25  # mean of 1 - cos between vertex normals over an edge; smooth shapes stay below 0.1
+
+
+def proxy(V: Floats, F: Ints, n_faces: int = 6000) -> tuple[Floats, Ints]:
+    """Decimate one component to about n_faces, with its topology kept but for vertices that pinch.
+
+    Noise is smoothed away before: it would count as curvature.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold, one component
+    n_faces : int
+
+    Returns
+    -------
+    V : (n', 3) float64, mm
+    F : (m', 3) int64. The mesh itself where it is small, or can't be decimated soundly.
+
+    Raises
+    ------
+    ChartError
+        pymeshlab can't be loaded: a system library is missing.
+    """
+    if len(F) <= 1.5 * n_faces:
+        return V, F
+    try:
+        import pymeshlab
+    except ImportError as error:
+        raise ChartError(
+            f"pymeshlab can't be loaded ({error})", hint="install the system packages libgl1 and libopengl0"
+        ) from None
+    meshes = pymeshlab.MeshSet(verbose=False)
+    meshes.add_mesh(pymeshlab.Mesh(V, F))
+    if _roughness(V, F) > _ROUGH:
+        meshes.apply_coord_taubin_smoothing(stepsmoothnum=10)
+    meshes.meshing_decimation_quadric_edge_collapse(
+        targetfacenum=n_faces,
+        preservetopology=True,
+        preservenormal=True,
+        qualitythr=0.5,
+        planarquadric=True,
+    )
+    light = meshes.current_mesh()
+    G, origin = fans(np.ascontiguousarray(light.face_matrix(), np.int64))
+    if not len(G) or edges(G).count.max() > 2:
+        return V, F
+    return np.ascontiguousarray(light.vertex_matrix()[origin]), G
+
+
+def _roughness(V: Floats, F: Ints) -> float:
+    """Give the mean of |1 - cos| between vertex normals over an edge."""
+    N, E = vertex_normals(V, F), edges(F).E
+    return float(np.mean(1 - np.einsum("ij,ij->i", N[E[:, 0]], N[E[:, 1]])))

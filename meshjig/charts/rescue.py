@@ -1,0 +1,64 @@
+"""Flatten any connected region, splitting it for as long as it makes no sound chart."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.charts.dual import dual
+from meshjig.charts.flatten import Method, border_is_simple, flatten, is_unflipped
+from meshjig.charts.patches import patches
+from meshjig.errors import ChartError
+from meshjig.topology import compact, components, is_disc
+
+__all__ = ["rescue"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_ITERATIONS = (15, 6, 2)
+
+
+def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[tuple[Ints, Floats]]:
+    """Make sound charts of some faces, at whatever number.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold
+    faces : (k,) int64
+    method : str
+    seed : int
+
+    Returns
+    -------
+    list of (faces, uv) : the charts; uv belongs to the vertices that compact(F[faces]) keeps
+    """
+    done = []
+    todo = [faces]
+    while todo:
+        part = todo.pop()
+        G, kept = compact(F[part])
+        n_parts, of_face = components(G)
+        if n_parts == 1:
+            uv = _sound(V[kept], G, method)
+            if uv is not None:
+                done.append((part, uv))
+                continue
+            if len(part) == 1:
+                raise ChartError(f"face {part[0]} has no area", hint="repair the mesh", ids=[int(part[0])])
+            of_face = patches(dual(V[kept], G), 2, seed, rounds=4)
+        todo += [part[of_face == p] for p in range(int(of_face.max()) + 1)]
+    return done
+
+
+def _sound(V: Floats, F: Ints, method: Method) -> Floats | None:
+    """Flatten faces; None where they are no disc, fold or overlap themselves."""
+    if not is_disc(F):
+        return None
+    for iterations in _ITERATIONS:  # a chart may grow into itself as it nears isometry
+        try:
+            uv = flatten(V, F, method, iterations)
+        except ChartError:
+            return None
+        if is_unflipped(uv, F) and border_is_simple(uv, F):
+            return uv
+    return None

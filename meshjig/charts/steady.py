@@ -1,0 +1,48 @@
+"""Give faces without area a little, so that every map can be computed."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.errors import ChartError
+from meshjig.measure import face_areas
+
+__all__ = ["steady"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_THIN = 1e-6  # of the mean edge: a face of less height counts as one without area
+_SHIFT = 1e-3  # of the mean edge
+
+
+def steady(V: Floats, F: Ints, seed: int = 0) -> Floats:
+    """Shift the corners of faces without area at random, by far less than an edge.
+
+    A single such face leaves the equations of a chart without a solution.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    seed : int
+
+    Returns
+    -------
+    V : (n, 3) float64, mm. For flattening only; V itself where no face is thin.
+
+    Raises
+    ------
+    ChartError
+        The mesh has no extent, or a coordinate is not finite.
+    """
+    side = np.linalg.norm(V[F] - V[np.roll(F, -1, 1)], axis=2)
+    edge = float(side.mean())
+    if not np.isfinite(edge) or edge <= 0:
+        raise ChartError("the mesh has no extent", hint="remove faces without area and points at infinity")
+    thin = 2 * face_areas(V, F) < _THIN * edge * np.maximum(side.max(1), _THIN * edge)
+    if not thin.any():
+        return V
+    moved = np.unique(F[thin])
+    out = V.copy()
+    out[moved] += _SHIFT * edge * np.random.default_rng(seed).normal(size=(len(moved), 3))
+    return out

@@ -1,0 +1,29 @@
+"""Every promise as a predicate on finished pieces, independent of how they were made."""
+
+from meshjig.check.areas import area_cv, area_error
+from meshjig.check.closed import as_stl, is_closed, is_closed_as_stl, is_one_component, volume
+from meshjig.check.crossings import crossing_depth, self_intersections
+from meshjig.check.gap import Gap, gaps
+from meshjig.check.judge import Verdict, judge
+from meshjig.check.overlap import Overlaps, overlaps
+from meshjig.check.thickness import Thickness, measure_thickness
+
+__all__ = [
+    "Gap",
+    "Overlaps",
+    "Thickness",
+    "Verdict",
+    "area_cv",
+    "area_error",
+    "as_stl",
+    "crossing_depth",
+    "gaps",
+    "is_closed",
+    "is_closed_as_stl",
+    "is_one_component",
+    "judge",
+    "measure_thickness",
+    "overlaps",
+    "self_intersections",
+    "volume",
+]

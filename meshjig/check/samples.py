@@ -1,0 +1,57 @@
+"""Points spread evenly over the surface of all pieces, the same ones every time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.check.arrays import Piece
+from meshjig.measure import area_vectors, interpolate, unit
+from meshjig.types import Floats, Ints
+
+__all__ = ["Samples", "Soup", "area_samples", "soup"]
+
+
+class Soup(NamedTuple):
+    """All pieces as one list of faces."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    piece: Ints  # (m,), the piece of a face
+    N: Floats  # (m, 3), unit normals
+    start: Ints  # (pieces + 1,), where a piece's faces start
+
+
+class Samples(NamedTuple):
+    """Points on the faces of a soup, ordered by face; each stands for the same area."""
+
+    P: Floats  # (k, 3), mm
+    face: Ints  # (k,)
+
+
+def soup(pieces: Sequence[Piece]) -> Soup:
+    """Put all pieces into one list of faces."""
+    first = np.cumsum([0] + [len(V) for V, _ in pieces])
+    V = np.concatenate([V for V, _ in pieces])
+    F = np.concatenate([F + shift for (_, F), shift in zip(pieces, first, strict=False)])
+    count = [len(F) for _, F in pieces]
+    piece = np.repeat(np.arange(len(pieces)), count)
+    return Soup(V, F, piece, unit(area_vectors(V, F)), np.cumsum([0, *count]))
+
+
+def area_samples(s: Soup, n: int) -> Samples:
+    """Spread n points over the faces, each standing for the same area.
+
+    Steps of equal area through the list of faces, and within a face a golden-ratio sequence:
+    as random as needed, and the same every time.
+    """
+    double_area = np.linalg.norm(area_vectors(s.V, s.F), axis=1)
+    end = np.cumsum(double_area)
+    face = np.searchsorted(end, (np.arange(n) + 0.5) * (end[-1] / n), side="right")
+    face = np.minimum(face, len(s.F) - 1)
+    k = np.arange(1, n + 1)
+    a, b = np.modf(k * 0.7548776662466927)[0], np.modf(k * 0.5698402909980532)[0]
+    a = np.sqrt(a)
+    return Samples(interpolate(s.V, s.F, face, np.stack([1 - a, a * (1 - b), a * b], 1)), face)

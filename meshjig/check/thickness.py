@@ -1,0 +1,97 @@
+"""How thick pieces are, from one sheet to the other, measured on the finished pieces alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from meshjig.check.arrays import Piece
+from meshjig.check.samples import Soup, area_samples, soup
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["Thickness", "measure_thickness"]
+
+_SAMPLES_A_PIECE = 1000
+_OPPOSITE = -0.5  # cosine between the normals where a ray goes in and where it comes out
+_FACING = -0.8  # cosine between the normals of two walls that face each other
+_WALL_REACH = 1.0  # mm; a wall has another piece before it, no farther than this
+_SKIN = 1e-3  # mm; rays start this far from the surface, since Embree works in float32
+
+
+@dataclass(frozen=True)
+class Thickness:
+    """Thicknesses at points spread evenly over the sheets."""
+
+    samples: Floats  # (k,), mm
+    piece: Ints  # (k,), the piece of a sample
+
+    def facts(self, nominal: float | None) -> dict[str, float | None]:
+        """Give min, p1 and median in mm, and the share of the area under 0.8 of the nominal thickness."""
+        known = len(self.samples) > 0
+        return {
+            "min": float(self.samples.min()) if known else None,
+            "p1": float(np.percentile(self.samples, 1)) if known else None,
+            "median": float(np.median(self.samples)) if known else None,
+            "thin_area_share": float((self.samples < 0.8 * nominal).mean()) if known and nominal else None,
+        }
+
+
+def measure_thickness(pieces: Sequence[Piece]) -> Thickness:
+    """Measure the thickness of pieces with rays that go straight in and come out on the other side.
+
+    A file does not tell sheets from walls. A point is taken to lie on a wall when another piece's face
+    turns towards it within 1 mm. A ray counts when it neither starts nor ends on a wall, and comes out
+    on the piece itself, through a face that looks the other way.
+
+    Parameters
+    ----------
+    pieces : list of (V, F)
+        V (n, 3) float64, mm; F (m, 3) int64, closed and oriented outward.
+
+    Returns
+    -------
+    Thickness
+
+    Notes
+    -----
+    Both sheets are sampled. The rim of an open surface faces nobody and counts as sheet: that is why
+    the figures to rely on are p1 and the median.
+    """
+    from embreex import rtcore_scene
+    from embreex.mesh_construction import TriangleMesh
+
+    s = soup(pieces)
+    scene = rtcore_scene.EmbreeScene()
+    TriangleMesh(scene, s.V[s.F].astype(np.float32))
+    P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
+    exit_face, way = _first_hit(scene, s, P, -s.N[face])
+    through = (exit_face >= 0) & (s.piece[exit_face] == s.piece[face])
+    through &= np.einsum("ij,ij->i", s.N[exit_face], s.N[face]) <= _OPPOSITE
+    P, face, exit_face, way = P[through], face[through], exit_face[through], way[through]
+    exit_point = P - way[:, None] * s.N[face]
+    sheet = ~(_on_wall(scene, s, P, face) | _on_wall(scene, s, exit_point, exit_face))
+    return Thickness(way[sheet], s.piece[face[sheet]])
+
+
+def _on_wall(scene: Any, s: Soup, P: Floats, face: Ints) -> Bools:
+    """Tell which points of the surface have another piece right before them, (k,) bool."""
+    across, distance = _first_hit(scene, s, P, s.N[face])
+    wall = (across >= 0) & (s.piece[across] != s.piece[face]) & (distance < _WALL_REACH)
+    return wall & (np.einsum("ij,ij->i", s.N[across], s.N[face]) <= _FACING)
+
+
+def _first_hit(scene: Any, s: Soup, P: Floats, direction: Floats) -> tuple[Ints, Floats]:
+    """Shoot rays from points of the surface; give the faces they meet, -1 for none, and the way there.
+
+    The way is measured to the plane of the face in double precision.
+    """
+    origin = P + _SKIN * direction
+    face = np.asarray(scene.run(origin.astype(np.float32), direction.astype(np.float32)), np.int64)
+    toward = np.einsum("ij,ij->i", s.N[face], direction)
+    height = np.einsum("ij,ij->i", s.N[face], s.V[s.F[face, 0]] - P)
+    flat = np.abs(toward) < 1e-6
+    way = np.where(flat, np.inf, height / np.where(flat, 1.0, toward))
+    return np.where(way > 0, face, -1), way

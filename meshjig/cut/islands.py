@@ -1,0 +1,193 @@
+"""Split faces that hold outlines which never reach their border.
+
+Such an outline would be a hole in a part of the face. A new vertex behind it, joined to the corners
+of the face, makes it cross an edge.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from meshjig.cut.places import kept_off_edges
+from meshjig.cut.predicates import orient
+from meshjig.cut.sheet import Sheet, make_sheet
+from meshjig.cut.snap import Graph
+from meshjig.cut.trace import Trace, trace
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["Origin", "in_mesh", "without_islands"]
+
+ROUNDS = 60  # each round splits every face with islands once
+
+
+class Origin(NamedTuple):
+    """Where the faces of a sheet came from: whole faces first, then parts of faces."""
+
+    face: Ints  # (m,), the face of the mesh
+    n_whole: int
+    bary: Floats  # (m - n_whole, 3, 3), where the corners of a part lie in its face of the mesh
+
+
+def in_mesh(origin: Origin, face: Ints, bary: Floats) -> tuple[Ints, Floats]:
+    """Carry places (face, bary (n, 3)) from the sheet to the mesh."""
+    part = np.flatnonzero(face >= origin.n_whole)
+    if len(part):
+        bary = bary.copy()
+        bary[part] = np.einsum("nk,nkj->nj", bary[part], origin.bary[face[part] - origin.n_whole])
+    return origin.face[face], bary
+
+
+def without_islands(sheet: Sheet, graph: Graph) -> tuple[Sheet, Origin, Graph, Trace]:
+    """Split faces until every outline in them is joined to their border.
+
+    An outline too small for that, a few grid steps across, is left out.
+
+    Returns
+    -------
+    sheet : Sheet
+        New vertices come after the old ones.
+    origin : Origin
+    graph : Graph
+    trace : Trace, of graph on sheet
+    """
+    m = len(sheet.F)
+    first = trace(sheet, graph)
+    lonely = _island_links(first)
+    if not len(lonely):
+        return sheet, Origin(np.arange(m), m, np.zeros((0, 3, 3))), graph, first
+
+    faces = np.unique(first.links.face[lonely])
+    part = _Part(
+        make_sheet(sheet.V, sheet.F[faces], sheet.U, sheet.F_uv[faces], sheet.chart[faces]),
+        faces,
+        np.tile(np.eye(3), (len(faces), 1, 1)),
+    )
+    for _ in range(ROUNDS):
+        seen = trace(part.sheet, graph)
+        lonely = _island_links(seen)
+        if not len(lonely):
+            break
+        split = _split(part, graph, seen, lonely)
+        if split is None:
+            break
+        part = split
+    if len(lonely):
+        graph = _less(graph, np.unique(seen.links.segment[lonely]))
+
+    whole = np.setdiff1d(np.arange(m), faces, assume_unique=True)
+    merged = make_sheet(
+        part.sheet.V,
+        np.concatenate([sheet.F[whole], part.sheet.F]),
+        part.sheet.U,
+        np.concatenate([sheet.F_uv[whole], part.sheet.F_uv]),
+        np.concatenate([sheet.chart[whole], part.sheet.chart]),
+    )
+    origin = Origin(np.concatenate([whole, part.face]), len(whole), part.bary)
+    return merged, origin, graph, trace(merged, graph)
+
+
+class _Part(NamedTuple):
+    sheet: Sheet
+    face: Ints
+    bary: Floats
+
+
+def _island_links(seen: Trace) -> Ints:
+    """List the links that no chain of links joins to the border of their face."""
+    n_crossings = len(seen.crossings.side)
+    start = np.maximum(seen.links.start - n_crossings, -1) + 1
+    end = np.maximum(seen.links.end - n_crossings, -1) + 1
+    inner = np.flatnonzero((start > 0) & (end > 0))
+    if not len(inner):
+        return inner
+    n = len(seen.landings.point) + 1
+    graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(n, n))
+    _, label = connected_components(graph, directed=False)
+    return inner[label[start[inner]] != label[0]]
+
+
+def _less(graph: Graph, dropped: Ints) -> Graph:
+    keep = np.ones(len(graph.segments), bool)
+    keep[dropped] = False
+    return graph._replace(
+        segments=graph.segments[keep],
+        left=graph.left[keep],
+        right=graph.right[keep],
+        source=graph.source[keep],
+    )
+
+
+def _split(part: _Part, graph: Graph, seen: Trace, lonely: Ints) -> _Part | None:
+    """Split each face with lonely links into three; None when none can be."""
+    sheet, origin, corners = part
+    face, points, bary = _behind(sheet, graph, seen, lonely)
+    if not len(face):
+        return None
+    bary = kept_off_edges(bary, sheet.V[sheet.F[face]])
+    middle = np.einsum("nk,nkj->nj", bary, corners[face])
+    V = np.concatenate([sheet.V, np.einsum("nk,nkd->nd", bary, sheet.V[sheet.F[face]])])
+    U = np.concatenate([sheet.U, points])
+    keep = np.ones(len(sheet.F), bool)
+    keep[face] = False
+    kept = np.flatnonzero(keep)
+    parts, F, F_uv, C = [kept], [sheet.F[kept]], [sheet.F_uv[kept]], [corners[kept]]
+    new, new_uv = len(sheet.V) + np.arange(len(face)), len(sheet.U) + np.arange(len(face))
+    for k in range(3):
+        j = (k + 1) % 3
+        parts.append(face)
+        F.append(np.stack([sheet.F[face, k], sheet.F[face, j], new], 1))
+        F_uv.append(np.stack([sheet.F_uv[face, k], sheet.F_uv[face, j], new_uv], 1))
+        C.append(np.stack([corners[face, k], corners[face, j], middle], 1))
+    of = np.concatenate(parts)
+    split = make_sheet(V, np.concatenate(F), U, np.concatenate(F_uv), sheet.chart[of])
+    return _Part(split, origin[of], np.concatenate(C))
+
+
+def _behind(sheet: Sheet, graph: Graph, seen: Trace, lonely: Ints) -> tuple[Ints, Ints, Floats]:
+    """Choose, in each face, a lonely link and a point that a corner sees through its middle.
+
+    Returns
+    -------
+    face : (f,) int64
+    points : (f, 2) int64, in the plane
+    bary : (f, 3) float64, the same in the face
+    """
+    ends = graph.points[graph.segments[seen.links.segment[lonely]]]
+    middle = ends.mean(axis=1)
+    face = seen.links.face[lonely]
+    corners = sheet.U[sheet.F_uv[face]].astype(float)
+    off = np.linalg.norm(middle - corners.mean(axis=1), axis=1)
+    order = np.lexsort((off, face))
+    chosen = order[_first_of_runs(face[order])]
+    ends, middle, face, corners = ends[chosen], middle[chosen], face[chosen], corners[chosen]
+
+    along = (ends[:, 1] - ends[:, 0]).astype(float)
+    ray = middle[:, None, :] - corners
+    across = np.abs(along[:, None, 0] * ray[:, :, 1] - along[:, None, 1] * ray[:, :, 0])
+    across /= np.maximum(np.linalg.norm(ray, axis=2), 1e-300)
+    k, i = across.argmax(axis=1), np.arange(len(face))
+    ray, far = ray[i, k], _weights(corners, middle)[i, k]
+    reach = np.minimum(
+        0.5 * far / np.maximum(1 - far, 1e-300),
+        np.linalg.norm(along, axis=1) / np.maximum(np.linalg.norm(ray, axis=1), 1e-300),
+    )
+    points = np.rint(middle + reach[:, None] * ray).astype(np.int64)
+    bary = _weights(corners, points.astype(float))
+    sound = (bary > 0).all(axis=1)
+    return face[sound], points[sound], bary[sound]
+
+
+def _first_of_runs(x: Ints) -> Bools:
+    return np.append(True, x[1:] != x[:-1])
+
+
+def _weights(corners: Floats, p: Floats) -> Floats:
+    """Give barycentric coordinates of p (n, 2) in corners (n, 3, 2)."""
+    a, b, c = (corners[:, k].astype(np.int64) for k in range(3))
+    q, d, e = p - corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = np.where(orient(a, b, c) == 0, 1, orient(a, b, c)).astype(float)
+    v = (q[:, 0] * e[:, 1] - q[:, 1] * e[:, 0]) / area
+    w = (d[:, 0] * q[:, 1] - d[:, 1] * q[:, 0]) / area
+    return np.stack([1 - v - w, v, w], 1)

@@ -1,0 +1,98 @@
+"""Where the new vertices lie: in which face, and where in it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.cut.edge_nodes import APART_MM, EdgeNodes
+from meshjig.cut.half_edges import Ring
+from meshjig.cut.links import Links
+from meshjig.cut.locate import Landings
+from meshjig.cut.predicates import orient
+from meshjig.cut.sheet import Sheet, forward
+from meshjig.cut.snap import Graph
+from meshjig.types import Floats, Ints
+
+__all__ = ["Places", "corner_frames", "half_edge_places", "kept_off_edges", "landing_weights"]
+
+NEAREST = 0.02  # no barycentric coordinate is kept larger than this, however small the face
+
+
+class Places(NamedTuple):
+    """The start of every half-edge: its vertex, and where that lies in the face.
+
+    Vertices are numbered: those of the sheet, then edge nodes, then landings.
+    """
+
+    vertex: Ints  # (h,)
+    row: Ints  # (h,), the face as a place in the ring's faces
+    bary: Floats  # (h, 3)
+    n_vertices: int
+
+
+def landing_weights(sheet: Sheet, graph: Graph, landings: Landings) -> Floats:
+    """Give barycentric coordinates of outline points in faces, kept off the faces' edges; (l, 3)."""
+    face = landings.face
+    u, v, w = (sheet.U[sheet.F_uv[face, k]] for k in range(3))
+    p = graph.points[landings.point]
+    weights = np.stack([orient(v, w, p), orient(w, u, p), orient(u, v, p)], 1)
+    bary = weights / np.where(orient(u, v, w) == 0, 1, orient(u, v, w))[:, None]
+    return kept_off_edges(bary, sheet.V[sheet.F[face]])
+
+
+def kept_off_edges(bary: Floats, corners: Floats) -> Floats:
+    """Move places (n, 3) in faces with given corners (n, 3, 3) a little away from the faces' edges."""
+    opposite = np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=2)
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    height = doubled[:, None] / np.maximum(opposite, 1e-30)
+    bary = np.maximum(bary, np.minimum(APART_MM / np.maximum(height, 1e-30), NEAREST))
+    return bary / bary.sum(axis=1, keepdims=True)
+
+
+def half_edge_places(
+    sheet: Sheet, ring: Ring, nodes: EdgeNodes, links: Links, weights: Floats, slots: Ints, leaving: Ints
+) -> Places:
+    """Place the starts of all half-edges: of the ring, of links forth, of links back.
+
+    Parameters
+    ----------
+    weights : (l, 3) float64, from landing_weights
+    slots, leaving : the ring half-edges and the link half-edges that start at the same node
+    """
+    nr, nl, nx = len(ring.next), len(links.face), len(nodes.of_crossing)
+    tail = np.concatenate([links.start, links.end])
+    vertex = np.empty(nr + 2 * nl, np.int64)
+    row = np.concatenate([ring.face, ring.row[links.face], ring.row[links.face]])
+    bary = np.zeros((len(vertex), 3))
+
+    at_node = np.flatnonzero(ring.node >= 0)
+    node, corner = ring.node[at_node], ring.corner[at_node]
+    runs_up = forward(sheet.F[ring.faces])[3 * ring.face[at_node] + corner]
+    along = np.where(runs_up, nodes.along[node], 1 - nodes.along[node])
+    vertex[:nr] = sheet.F[ring.faces[ring.face], ring.corner]
+    vertex[at_node] = len(sheet.V) + node
+    bary[np.arange(nr), ring.corner] = 1
+    bary[at_node, corner] = 1 - along
+    bary[at_node, (corner + 1) % 3] = along
+
+    landed = np.flatnonzero(tail >= nx)
+    vertex[nr + landed] = len(sheet.V) + len(nodes.edge) + tail[landed] - nx
+    bary[nr + landed] = weights[tail[landed] - nx]
+    vertex[leaving], bary[leaving] = vertex[slots], bary[slots]
+    n_landed = len(weights)
+    return Places(vertex, row, bary, len(sheet.V) + len(nodes.edge) + n_landed)
+
+
+def corner_frames(sheet: Sheet, faces: Ints) -> Floats:
+    """Lay faces flat without stretch, (t, 3, 2) mm; a face without area becomes equilateral."""
+    a = sheet.V[sheet.F[faces, 0]]
+    d, e = sheet.V[sheet.F[faces, 1]] - a, sheet.V[sheet.F[faces, 2]] - a
+    length = np.linalg.norm(d, axis=1)
+    x = np.einsum("ij,ij->i", d, e) / np.maximum(length, 1e-300)
+    y = np.sqrt(np.maximum(np.einsum("ij,ij->i", e, e) - x * x, 0))
+    flat = y * length <= 1e-9 * np.maximum(length**2, x * x + y * y)
+    frames = np.zeros((len(faces), 3, 2))
+    frames[:, 1, 0] = np.where(flat, 1, length)
+    frames[:, 2, 0] = np.where(flat, 0.5, x)
+    frames[:, 2, 1] = np.where(flat, np.sqrt(0.75), y)
+    return frames

@@ -1,0 +1,20 @@
+"""What every writer is given: one named and coloured solid."""
+
+from dataclasses import dataclass
+
+from meshjig.types import Floats, Ints
+
+__all__ = ["Piece"]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One solid in its assembled position.
+
+    ``check.pieces`` judges solids; here they only have a name and a colour more.
+    """
+
+    name: str
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    colour: tuple[float, float, float]  # red, green, blue as a screen shows them, 0 to 1

@@ -1,0 +1,135 @@
+"""Read pieces back from files, whatever wrote them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from meshjig.check.arrays import sound_piece, weld
+from meshjig.errors import InputError
+from meshjig.output.read_3mf import read_3mf
+from meshjig.types import Floats, Ints
+
+__all__ = ["read_pieces"]
+
+MESHES = (".stl", ".obj", ".ply")
+NamedPiece = tuple[str, Floats, Ints]
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def read_pieces(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[NamedPiece]:
+    """Read the pieces of a puzzle.
+
+    Parameters
+    ----------
+    paths : path, or several
+        A folder that meshjig made (its pieces/, else its puzzle.3mf), any folder of STL, OBJ or PLY
+        files, single files of these, or a 3MF. A mesh file is one piece; a 3MF holds one piece an
+        object, placed as its build says.
+
+    Returns
+    -------
+    list of (name, V, F)
+        V (n, 3) float64, in the unit of the file (mm for 3MF); F (m, 3) int64. Vertices with equal
+        coordinates are one. Files of a folder come in natural order: piece_2 before piece_10.
+
+    Raises
+    ------
+    InputError
+        Nothing found, or a file that can't be read.
+    """
+    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    if not given:
+        raise InputError("no files to read", hint="name a folder of pieces, mesh files or a 3MF")
+    pieces: list[NamedPiece] = []
+    for path in (file for item in given for file in _files(Path(item))):
+        pieces += read_3mf(path) if path.suffix.lower() == ".3mf" else [_read_mesh(path)]
+    return pieces
+
+
+def _files(path: Path) -> list[Path]:
+    """List the files that hold the pieces of a path."""
+    if not path.exists():
+        raise InputError(f"{path} does not exist")
+    if not path.is_dir():
+        if path.suffix.lower() not in (*MESHES, ".3mf"):
+            raise InputError(
+                f"{path} is of an unknown format", hint="pieces are read from STL, OBJ, PLY and 3MF"
+            )
+        return [path]
+    for folder in (path / "pieces", path):
+        found = _meshes(folder)
+        if found:
+            return found
+        if folder == path / "pieces" and (path / "puzzle.3mf").is_file():
+            return [path / "puzzle.3mf"]
+    packages = sorted(p for p in path.iterdir() if p.suffix.lower() == ".3mf")
+    if len(packages) == 1:
+        return packages
+    raise InputError(
+        f"no pieces found in {path}", hint="a folder of STL, OBJ or PLY files, or one 3MF, is needed"
+    )
+
+
+def _meshes(folder: Path) -> list[Path]:
+    """List the mesh files of a folder in natural order; of one format only, lest a piece come twice."""
+    files = list(folder.iterdir()) if folder.is_dir() else []
+    for suffix in MESHES:
+        found = [p for p in files if p.suffix.lower() == suffix and p.is_file()]
+        if found:
+            return sorted(found, key=_natural)
+    return []
+
+
+def _natural(path: Path) -> list[Any]:
+    return [
+        (0, int(part), "") if part.isdigit() else (1, 0, part)
+        for part in re.split(r"(\d+)", path.name)
+        if part
+    ]
+
+
+def _read_mesh(path: Path) -> NamedPiece:
+    V, F = _binary_stl(path) if path.suffix.lower() == ".stl" else (None, None)
+    if V is None:
+        V, F = _by_trimesh(path)
+    V, F = sound_piece(V, F, str(path))
+    return path.stem, *sound_piece(*weld(V, F), str(path))
+
+
+def _binary_stl(path: Path) -> tuple[Any, Any]:
+    """Give a soup of corners, or (None, None) where the file is no binary STL."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path} can't be read ({error.strerror or error})") from None
+    if len(data) == 0:
+        raise InputError(f"{path} is empty")
+    n = int.from_bytes(data[80:84], "little") if len(data) >= 84 else 0
+    wanted = 84 + n * _FACET.itemsize
+    is_text = data[:5].lower() == b"solid" and b"facet" in data[:1000]
+    if len(data) < 84 or (is_text and len(data) != wanted):
+        return None, None
+    if len(data) < wanted:
+        raise InputError(f"{path} is cut short: it announces {n} facets, and holds {(len(data) - 84) // 50}")
+    corners = np.frombuffer(data, _FACET, count=n, offset=84)["corners"].astype(np.float64).reshape(-1, 3)
+    return corners, np.arange(3 * n).reshape(-1, 3)
+
+
+def _by_trimesh(path: Path) -> tuple[Any, Any]:
+    import trimesh
+
+    try:
+        mesh = trimesh.load(path, force="mesh", process=False, skip_materials=True)
+        return np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    except Exception as error:  # trimesh's readers raise whatever their parsers do
+        raise InputError(f"{path} can't be read as {path.suffix[1:].upper()} ({_one_line(error)})") from None
+
+
+def _one_line(error: Exception) -> str:
+    return (str(error).strip() or type(error).__name__).splitlines()[0]

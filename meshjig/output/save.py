@@ -1,0 +1,103 @@
+"""A whole puzzle in a folder: pieces, 3MF and the like, preview, curves, report."""
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from meshjig.output.folder import replace_folder
+from meshjig.output.piece import Piece
+from meshjig.types import Floats
+
+__all__ = ["FORMATS", "save_puzzle"]
+
+FORMATS = ("stl", "3mf", "obj", "glb")
+
+
+def save_puzzle(
+    directory: str | Path,
+    pieces: Sequence[Piece],
+    report: Mapping[str, Any],
+    *,
+    formats: Sequence[str] = ("stl", "3mf"),
+    plane_curves: Sequence[Floats] = (),
+    space_curves: Sequence[Floats] = (),
+    preview: bool = True,
+) -> dict[str, Any]:
+    """Write a puzzle to a folder that appears whole or not at all.
+
+    Parameters
+    ----------
+    directory : path
+        An existing folder is replaced only when meshjig made it.
+    pieces : sequence of Piece
+    report : mapping, what report.json holds
+    formats : sequence of "stl", "3mf", "obj", "glb"
+    plane_curves : sequence of (k, 2) float64, mm; cut curves for SVG
+    space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
+    preview : bool, also draw preview.png
+
+    Returns
+    -------
+    dict, the report as written, with the seconds for writing and drawing among its timings
+
+    Raises
+    ------
+    OutputError
+        The folder can't be written, or holds something else.
+    """
+    seconds = dict(report["timings_s"])
+    with replace_folder(directory) as folder:
+        with _lap(seconds, "write"):
+            _write_meshes(folder, pieces, formats)
+            _write_curves(folder, plane_curves, space_curves)
+        if preview:
+            from meshjig.output.preview import preview as draw
+
+            with _lap(seconds, "preview"):
+                draw(pieces, folder / "preview.png")
+        from meshjig.output.report import write_report
+
+        written = {**report, "timings_s": seconds}
+        write_report(folder / "report.json", written)
+    return written
+
+
+@contextmanager
+def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
+    start = time.perf_counter()
+    yield
+    seconds[name] = time.perf_counter() - start
+
+
+def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str]) -> None:
+    if "stl" in formats:
+        from meshjig.output.stl import write_stl
+
+        (folder / "pieces").mkdir()
+        for piece in pieces:
+            write_stl(folder / "pieces" / f"{piece.name}.stl", piece.V, piece.F, piece.name)
+    if "3mf" in formats:
+        from meshjig.output.threemf import write_3mf
+
+        write_3mf(folder / "puzzle.3mf", pieces)
+    if "obj" in formats:
+        from meshjig.output.obj import write_obj
+
+        write_obj(folder / "puzzle.obj", pieces)
+    if "glb" in formats:
+        from meshjig.output.glb import write_glb
+
+        write_glb(folder / "puzzle.glb", pieces)
+
+
+def _write_curves(folder: Path, plane: Sequence[Floats], space: Sequence[Floats]) -> None:
+    if not (len(plane) or len(space)):
+        return
+    from meshjig.output.curves import write_dxf, write_obj_lines, write_svg
+
+    (folder / "curves").mkdir()
+    write_svg(folder / "curves" / "cuts.svg", plane)
+    write_obj_lines(folder / "curves" / "cuts.obj", space)
+    write_dxf(folder / "curves" / "cuts.dxf", space)

@@ -1,0 +1,19 @@
+"""From a file to a clean mesh in mm: load, repair, scale, working resolution."""
+
+from meshjig.scan.crossings import self_crossings
+from meshjig.scan.load import load
+from meshjig.scan.read import describe, read_scan
+from meshjig.scan.repair import repair
+from meshjig.scan.resolution import decimate, refine_long_edges
+from meshjig.scan.scale import to_millimetres
+
+__all__ = [
+    "decimate",
+    "describe",
+    "load",
+    "read_scan",
+    "refine_long_edges",
+    "repair",
+    "self_crossings",
+    "to_millimetres",
+]

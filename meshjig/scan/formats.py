@@ -1,0 +1,114 @@
+"""Is a mesh file whole? Readers skip over a missing tail; a user should hear of it."""
+
+from __future__ import annotations
+
+import re
+import struct
+import zipfile
+from pathlib import Path
+
+from meshjig.errors import InputError
+
+__all__ = ["FORMATS", "check_whole", "mentions_faces"]
+
+FORMATS = frozenset({"stl", "obj", "ply", "off", "glb", "gltf", "3mf"})
+
+
+def check_whole(path: Path, kind: str) -> None:
+    """Refuse a file that ends too early, as far as the format lets one know.
+
+    Parameters
+    ----------
+    path : Path
+    kind : str, one of FORMATS
+
+    Raises
+    ------
+    InputError
+        The file is cut off.
+    """
+    look = {"stl": _stl, "glb": _glb, "3mf": _3mf, "obj": _obj, "ply": _ply, "off": _off}.get(kind)
+    missing = look(path) if look else ""
+    if missing:
+        raise InputError(f"{path} is cut off: {missing}", hint="copy or export it again")
+
+
+def mentions_faces(path: Path, kind: str) -> bool:
+    """Tell whether an OBJ file has face lines, be they any good or not."""
+    return kind == "obj" and re.search(rb"^f\s", path.read_bytes(), re.MULTILINE) is not None
+
+
+def _stl(path: Path) -> str:
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(84)
+        file.seek(max(0, size - 200))
+        tail = file.read()
+    if head.lstrip()[:5].lower() == b"solid" and b"\0" not in head:
+        return "" if b"endsolid" in tail.lower() else "the line 'endsolid' is missing"
+    if len(head) < 84:
+        return f"it has {size} bytes, and the head of an STL file alone has 84"
+    (count,) = struct.unpack("<I", head[80:84])
+    if size < 84 + 50 * count:
+        return f"it announces {count} triangles and holds {(size - 84) // 50}"
+    return ""
+
+
+def _glb(path: Path) -> str:
+    with path.open("rb") as file:
+        head = file.read(12)
+    if len(head) == 12 and head[:4] == b"glTF":
+        (length,) = struct.unpack("<I", head[8:12])
+        if path.stat().st_size < length:
+            return f"it announces {length} bytes and holds {path.stat().st_size}"
+    return ""
+
+
+def _3mf(path: Path) -> str:
+    return "" if zipfile.is_zipfile(path) else "the table at the end of the archive is missing"
+
+
+def _obj(path: Path) -> str:
+    """An OBJ file has no end mark: only a last line that is half a vertex or half a face tells."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        file.seek(max(0, size - 4096))
+        tail = file.read()
+    line = tail.rsplit(b"\n", 1)[-1].split(b"#")[0].split()
+    if line and line[0] in (b"v", b"f") and len(line) < 4:
+        return f"its last line, '{b' '.join(line).decode(errors='replace')}', is not whole"
+    return ""
+
+
+def _ply(path: Path) -> str:
+    """Binary PLY is left to its reader, which counts bytes."""
+    data = path.read_bytes()
+    head, mark, body = data.partition(b"end_header")
+    if not head.startswith(b"ply"):
+        return ""
+    if not mark:
+        return "its head does not end"
+    if b"format ascii" not in head:
+        return ""
+    announced = sum(int(n) for n in re.findall(rb"^element\s+\S+\s+(\d+)", head, re.MULTILINE))
+    return _too_few(announced, [line for line in body.splitlines() if line.strip()])
+
+
+def _off(path: Path) -> str:
+    lines = [line for line in (x.split(b"#")[0].strip() for x in path.read_bytes().splitlines()) if line]
+    match = re.match(rb"[A-Z4n]*OFF\s*(.*)", lines[0]) if lines else None
+    if not match or b"BINARY" in lines[0]:
+        return ""
+    counts = match[1].split() or (lines.pop(1).split() if len(lines) > 1 else [])
+    if len(counts) < 2 or not all(count.isdigit() for count in counts):
+        return ""
+    return _too_few(int(counts[0]) + int(counts[1]), lines[1:])
+
+
+def _too_few(announced: int, rows: list[bytes]) -> str:
+    if len(rows) < announced:
+        return f"it announces {announced} vertices and faces and holds {len(rows)}"
+    last = rows[announced - 1].split() if announced else []
+    if last and last[0].isdigit() and len(last) <= int(last[0]) < 20:
+        return f"its last face, '{b' '.join(last).decode(errors='replace')}', is not whole"
+    return ""

@@ -1,0 +1,140 @@
+"""Cut a heap of triangles into sheets: at most two faces an edge, one fan a vertex, no area lost."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from meshjig.measure import unit
+from meshjig.topology import Edges, edges, next_halfedge
+from meshjig.types import Floats, Ints
+
+__all__ = ["Sheets", "is_clean", "make_manifold"]
+
+_ROUNDS = 100
+
+
+class Sheets(NamedTuple):
+    """A manifold mesh and what made it one."""
+
+    V: Floats  # (n, 3)
+    F: Ints  # (m, 3)
+    n_edges: int  # edges that had more than two faces
+    n_vertices: int  # vertices that were split
+
+
+def is_clean(F: Ints, n: int) -> bool:
+    """Tell whether faces make a manifold, coherent mesh of n vertices.
+
+    That is: every edge has one or two faces, which run along it in opposite directions, and every vertex
+    is used, by one fan.
+    """
+    e = edges(F)
+    if e.count.max(initial=0) > 2:
+        return False
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    if (F.ravel()[h] == F.ravel()[e.twin[h]]).any():
+        return False
+    _, origin = _fans(F, e.twin)
+    return bool(np.array_equal(origin, np.arange(n)))
+
+
+def make_manifold(V: Floats, F: Ints) -> Sheets:
+    """Pull apart what meets in too many faces.
+
+    Around an edge with more than two faces, those that bound the same side of the material stay
+    together, as two boxes that touch in an edge do; faces that are left over end there. Vertices are
+    then split by fan. An edge that two sheets still share, because they hang together at both its ends,
+    is given a middle of its own in each sheet.
+
+    Parameters
+    ----------
+    V : (n, 3) float64
+    F : (m, 3) int64, no face with a repeated corner, no two with equal corners
+
+    Returns
+    -------
+    Sheets
+    """
+    e = edges(F)
+    n_edges = int((e.count > 2).sum())
+    n = len(V)
+    for _ in range(_ROUNDS):
+        twin = _twins(V, F, e)
+        F, origin = _fans(F, twin)
+        V = V[origin]
+        e = edges(F)
+        if e.count.max(initial=0) <= 2:
+            break
+        V, F = _with_middles(V, F, e, twin)
+        e = edges(F)
+    return Sheets(V, F, n_edges, max(0, len(V) - n))
+
+
+def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
+    """Give each half-edge's twin, also where more than two faces meet; itself where there is none."""
+    twin = e.twin.copy()
+    h = np.flatnonzero(e.count[e.edge_of_halfedge] > 2)
+    if not len(h):
+        return twin
+    edge = e.edge_of_halfedge[h]
+    a, b = e.E[edge].T
+    axis = unit(V[b] - V[a])
+    across = V[F.ravel()[next_halfedge(next_halfedge(h))]] - V[a]
+    u = unit(np.eye(3)[np.abs(axis).argmin(axis=1)])
+    u = unit(u - np.einsum("ij,ij->i", u, axis)[:, None] * axis)
+    v = np.cross(axis, u)
+    angle = np.arctan2(np.einsum("ij,ij->i", across, v), np.einsum("ij,ij->i", across, u))
+    forward = F.ravel()[h] == a
+    order = np.lexsort([angle, edge])
+    h, edge, forward = h[order], edge[order], forward[order]
+    # a forward face has its material at lower angles, a backward one at higher: they close a wedge
+    start = np.searchsorted(edge, edge)
+    count = np.searchsorted(edge, edge, side="right") - start
+    following = start + (np.arange(len(h)) - start + 1) % count
+    wedge = ~forward & forward[following]
+    twin[h[wedge]], twin[h[following[wedge]]] = h[following[wedge]], h[wedge]
+    return twin
+
+
+def _fans(F: Ints, twin: Ints) -> tuple[Ints, Ints]:
+    """Number vertices by fan: faces into the new vertices, and the old vertex of every new one."""
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    t = twin[h]
+    same = F.ravel()[h] == F.ravel()[t]
+    rows = np.concatenate([h, next_halfedge(h)])
+    cols = np.concatenate([np.where(same, t, next_halfedge(t)), np.where(same, next_halfedge(t), t)])
+    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(3 * len(F), 3 * len(F)))
+    _, fan = connected_components(graph, directed=False)
+    # number the fans in the order of their old vertices: an already clean mesh keeps its numbers
+    _, first = np.unique(fan, return_index=True)
+    old = F.ravel()[first]
+    order = np.argsort(old, kind="stable")
+    number = np.empty(len(order), np.int64)
+    number[order] = np.arange(len(order))
+    return number[fan].reshape(-1, 3), old[order]
+
+
+def _with_middles(V: Floats, F: Ints, e: Edges, twin: Ints) -> tuple[Floats, Ints]:
+    """Split crowded edges, in every sheet but the first of each, by a vertex of the sheet's own."""
+    h = np.flatnonzero(e.count[e.edge_of_halfedge] > 2)
+    sheet = np.minimum(h, twin[h])
+    first = np.full(len(e.E), len(twin))
+    np.minimum.at(first, e.edge_of_halfedge[h], sheet)
+    h = h[sheet != first[e.edge_of_halfedge[h]]]
+    sheet = np.minimum(h, twin[h])
+    face_first = np.full(len(F), len(twin))
+    np.minimum.at(face_first, h // 3, sheet)
+    # one split a face and round, and in both faces of a sheet at the same time
+    ready = face_first[h // 3] == sheet
+    h = h[ready & (np.isin(twin[h], h[ready]))]
+    sheets, middle = np.unique(np.minimum(h, twin[h]), return_inverse=True)
+    m = len(V) + middle.ravel()
+    p, q, r = F[h // 3, h % 3], F[h // 3, (h + 1) % 3], F[h // 3, (h + 2) % 3]
+    points = (V[F.ravel()[sheets]] + V[F.ravel()[next_halfedge(sheets)]]) / 2
+    G = F.copy()
+    G[h // 3] = np.stack([p, m, r], 1)
+    return np.concatenate([V, points]), np.concatenate([G, np.stack([m, q, r], 1)])

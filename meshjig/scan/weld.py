@@ -1,0 +1,157 @@
+"""Close the cracks that file formats leave: equal vertices, equal faces, faces without area."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.measure import area_vectors
+from meshjig.topology import edges
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["drop_doubles", "flip_flat", "weld"]
+
+_FLIP_ROUNDS = 20
+
+
+def weld(V: Floats, F: Ints, tolerance: float) -> tuple[Floats, Ints, int]:
+    """Merge vertices that lie in one place and belong together.
+
+    Those are border vertices (STL triangles, texture seams) within tolerance of each other, and the ends
+    of edges shorter than it. Two sheets that merely touch stay apart.
+
+    Parameters
+    ----------
+    V : (n, 3) float64
+    F : (m, 3) int64, which uses every vertex
+    tolerance : float, a distance in the units of V
+
+    Returns
+    -------
+    V : (n', 3) float64, in the order they came in
+    F : (m, 3) int64
+    n_merged : int, vertices that went
+    """
+    e = edges(F)
+    length = np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1)
+    pairs = e.E[(length <= tolerance) & (e.E[:, 0] != e.E[:, 1])]
+    border = np.unique(e.E[e.count != 2])
+    if len(border):
+        pairs = np.concatenate([pairs, _close_pairs(V, border, tolerance)])
+    if not len(pairs):
+        return V, F, 0
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    n = len(V)
+    graph = coo_matrix((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    _, group = connected_components(graph, directed=False)
+    _, first, number = np.unique(group, return_index=True, return_inverse=True)
+    order = np.argsort(np.argsort(first))  # keep the vertices in the order they came in
+    return V[np.sort(first)], order[number.ravel()][F].astype(np.int64), n - len(first)
+
+
+def _close_pairs(V: Floats, candidates: Ints, tolerance: float) -> Ints:
+    """Give enough pairs of candidates to connect all that lie within tolerance."""
+    from scipy.spatial import cKDTree
+
+    P = V[candidates] + 0.0  # -0 and 0 are one place
+    order = np.lexsort(P.T)
+    same = (P[order[1:]] == P[order[:-1]]).all(axis=1)
+    exact = np.stack([order[:-1][same], order[1:][same]], 1)
+    first = order[np.concatenate([[True], ~same])]  # one of each place: an STL has six in each
+    near = first[cKDTree(P[first]).query_pairs(tolerance, output_type="ndarray")]
+    return candidates[np.concatenate([exact, near.reshape(-1, 2)])]
+
+
+def drop_doubles(F: Ints) -> tuple[Ints, int, int]:
+    """Drop faces with a repeated corner, and all but the first of faces with equal corners.
+
+    Returns
+    -------
+    F : (m', 3) int64
+    n_null : int
+    n_duplicate : int
+    """
+    a, b, c = F.T
+    null = (a == b) | (b == c) | (c == a)
+    F = F[~null]
+    corners = np.sort(F, axis=1)
+    order = np.lexsort(corners.T)
+    same = (corners[order[1:]] == corners[order[:-1]]).all(axis=1)
+    keep = np.ones(len(F), bool)
+    keep[order[1:][same]] = False  # lexsort is stable: the first of each run stays
+    return F[keep], int(null.sum()), int(same.sum())
+
+
+def flip_flat(V: Floats, F: Ints, height: float) -> tuple[Ints, int]:
+    """Get rid of faces flatter than height without opening a crack.
+
+    A vertex that lies on the longest edge of its flat face takes the place of that edge: the edge is
+    flipped into the neighbour, or the face dropped where there is no neighbour.
+
+    Parameters
+    ----------
+    V : (n, 3) float64
+    F : (m, 3) int64
+    height : float, in the units of V
+
+    Returns
+    -------
+    F : (m', 3) int64. Flat faces remain where no flip is possible.
+    n_flat : int, flat faces found
+    """
+    found = int(_flat(V, F, height)[0].sum())
+    if not found:
+        return F, 0
+    F = F.copy()
+    for _ in range(_FLIP_ROUNDS):
+        flat, longest = _flat(V, F, height)
+        e = edges(F)
+        h = 3 * np.flatnonzero(flat) + longest[flat]
+        border = e.count[e.edge_of_halfedge[h]] == 1
+        dropped = h[border] // 3
+        chosen = _independent(V, F, h[~border], e.twin, e.E, flat)
+        if not len(chosen) and not len(dropped):
+            break
+        t = e.twin[chosen]
+        b, c, a, d = _corner(F, chosen, 1), _corner(F, chosen, 2), _corner(F, chosen, 0), _corner(F, t, 2)
+        F[chosen // 3], F[t // 3] = np.stack([c, a, d], 1), np.stack([b, c, d], 1)
+        keep = np.ones(len(F), bool)
+        keep[dropped] = False
+        F = F[keep]
+    return F, found
+
+
+def _flat(V: Floats, F: Ints, height: float) -> tuple[Bools, Ints]:
+    """Tell which faces are flat, and give each face's longest side."""
+    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F], axis=2)
+    longest = sides.argmax(axis=1)
+    return np.linalg.norm(area_vectors(V, F), axis=1) <= height * sides.max(axis=1), longest
+
+
+def _corner(F: Ints, h: Ints, k: int) -> Ints:
+    """Give the corner k steps after the start of half-edges."""
+    return F[h // 3, (h + k) % 3]
+
+
+def _independent(V: Floats, F: Ints, h: Ints, twin: Ints, E: Ints, flat: Bools) -> Ints:
+    """Give half-edges to flip at the same time: coherent, no face twice, no edge made that exists."""
+    t = twin[h]
+    fine = (t != h) & (_corner(F, h, 0) == _corner(F, t, 1))
+    h, t = h[fine], t[fine]
+    n = np.int64(len(V))
+    c, d = _corner(F, h, 2), _corner(F, t, 2)
+    key = np.minimum(c, d) * n + np.maximum(c, d)
+    fine = (c != d) & ~np.isin(key, E[:, 0] * n + E[:, 1])
+    # among flat neighbours the longest edge goes first, or two would swap for ever
+    length = np.linalg.norm(V[_corner(F, h, 0)] - V[_corner(F, h, 1)], axis=1)
+    order = np.flatnonzero(fine)[np.lexsort([flat[t[fine] // 3], -length[fine]])]
+    h, t, key = h[order], t[order], key[order]
+    rank = np.arange(len(h))
+    best_face = np.full(len(F), len(h))
+    np.minimum.at(best_face, h // 3, rank)
+    np.minimum.at(best_face, t // 3, rank)
+    _, first = np.unique(key, return_index=True)
+    best_key = np.zeros(len(h), bool)
+    best_key[first] = True
+    return h[(best_face[h // 3] == rank) & (best_face[t // 3] == rank) & best_key]

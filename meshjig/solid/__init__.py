@@ -1,0 +1,16 @@
+"""From a labelled surface to solid pieces."""
+
+from meshjig.solid.directions import miter_directions
+from meshjig.solid.pieces import INNER, OUTER, WALL, Solid, solidify
+from meshjig.solid.shell_map import check_thickness, displacement
+
+__all__ = [
+    "INNER",
+    "OUTER",
+    "WALL",
+    "Solid",
+    "check_thickness",
+    "displacement",
+    "miter_directions",
+    "solidify",
+]

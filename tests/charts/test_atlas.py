@@ -1,0 +1,153 @@
+import numpy as np
+import pytest
+import shapely
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from meshjig.charts import build_atlas
+from meshjig.errors import ChartError, MeshjigError, OptionError
+from meshjig.measure import face_areas
+from meshjig.topology import compact, edges, is_disc
+from meshjig.types import Mesh
+from tests.charts.helpers import all_turn_left, corner_angles, signed_areas
+from tests.meshes import (
+    creased_box,
+    cylinder,
+    disc,
+    genus2,
+    half_sphere,
+    inside_out,
+    joined,
+    moved,
+    noisy,
+    open_cup,
+    sphere,
+    torus,
+    two_components,
+)
+from tests.strategies import meshes
+
+
+def assert_sound(atlas):
+    """Every chart is a disc, the right way up, one to one, and apart from the others."""
+    F, G = atlas.mesh.F, atlas.F_uv
+    assert all_turn_left(atlas.uv, G)
+    assert np.unique(G).tolist() == list(range(len(atlas.uv)))
+    charts = [atlas.chart_of_face == c for c in range(atlas.n_charts)]
+    assert all(is_disc(F[c]) for c in charts)
+    shapes = [shapely.union_all(shapely.polygons(atlas.uv[G[c]])) for c in charts]
+    for shape, c in zip(shapes, charts, strict=True):
+        assert shape.area == pytest.approx(signed_areas(atlas.uv, G[c]).sum(), rel=1e-6)
+    for i, shape in enumerate(shapes):
+        assert all(shape.distance(other) >= 5 - 1e-6 for other in shapes[:i])
+
+
+def assert_rows_differ_over_seams_only(atlas):
+    F, G = atlas.mesh.F.ravel(), atlas.F_uv.ravel()
+    owner = np.full(len(atlas.uv), -1)
+    owner[G] = F
+    assert (owner[G] == F).all()
+    e = edges(atlas.mesh.F)
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    seam = atlas.chart_of_face[h // 3] != atlas.chart_of_face[e.twin[h] // 3]
+    far_end = G[np.where(e.twin[h] % 3 == 2, e.twin[h] - 2, e.twin[h] + 1)]
+    assert ((G[h] != far_end) == seam).all()
+
+
+SHAPES = {
+    "sphere of 100 faces": sphere(100),
+    "sphere": sphere(2000),
+    "torus": torus(2000),
+    "genus 2": genus2(1500),
+    "cylinder": cylinder(1000),
+    "cup": open_cup(1000),
+    "box": creased_box(1200),
+    "box of 12 faces": creased_box(12),
+    "two components": two_components(1500),
+    "noisy torus": noisy(torus(2000), 0.3),
+    "noisy sphere, heavy": noisy(sphere(20000), 0.3),
+    "one face": disc(6),
+    "a sphere and crumbs": joined(
+        sphere(500), moved(sphere(20, 1.0), [60, 0, 0]), moved(disc(6, 1.0), [70, 0, 0])
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_any_topology_gets_sound_charts(name):
+    atlas = build_atlas(Mesh(*SHAPES[name]))
+    assert_sound(atlas)
+    assert_rows_differ_over_seams_only(atlas)
+    assert atlas.facts["flips"] == atlas.facts["overlaps"] == 0
+    assert atlas.facts["n_charts"] == atlas.n_charts
+
+
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(meshes(faces=(100, 600), noise=0.4), st.sampled_from(["lscm", "arap", "slim", "xatlas"]))
+def test_any_mesh_gets_sound_charts_by_any_method(mesh, method):
+    atlas = build_atlas(Mesh(*mesh), method=method)
+    assert_sound(atlas)
+    assert_rows_differ_over_seams_only(atlas)
+
+
+def test_a_nearly_flat_chart_keeps_area_and_angles():
+    V, F = half_sphere(2000)
+    cap, kept = compact(F[V[F].mean(1)[:, 2] > 35])
+    atlas = build_atlas(Mesh(V[kept], cap))
+    assert atlas.n_charts == 1
+    off = np.abs(corner_angles(atlas.uv, atlas.F_uv) - corner_angles(V[kept], cap))
+    assert np.quantile(off, 0.95) < 10
+    assert signed_areas(atlas.uv, atlas.F_uv).sum() == pytest.approx(face_areas(V[kept], cap).sum(), rel=0.02)
+
+
+def test_most_of_a_heavy_mesh_is_hardly_stretched_and_few_seams_are_cut():
+    atlas = build_atlas(Mesh(*torus(20000)))
+    assert atlas.facts["gate_share"] > 0.97
+    assert atlas.n_charts <= 6
+    assert atlas.facts["seam_over_sqrt_area"] < 8
+
+
+def test_equal_input_gives_equal_geometry():
+    first, second = (build_atlas(Mesh(*genus2(1500)), seed=5) for _ in range(2))
+    assert (first.uv == second.uv).all()
+    assert (first.F_uv == second.F_uv).all()
+
+
+def test_slivers_are_no_trouble():
+    V, F = disc(600)
+    thin = V * [1, 1e-5, 1]
+    assert_sound(build_atlas(Mesh(np.ascontiguousarray(thin), F)))
+
+
+def test_faces_without_area_are_no_trouble():
+    V, F = sphere(2000)
+    V[F[100, 0]] = V[F[100, 1]]
+    V[F[700, 0]] = (V[F[700, 1]] + V[F[700, 2]]) / 2
+    V[F[300:310].ravel()] = V[F[300, 0]]
+    atlas = build_atlas(Mesh(V, F))
+    assert_sound(atlas)
+    assert atlas.n_charts <= 5
+
+
+def test_lengths_scale_with_the_model():
+    V, F = open_cup(1000)
+    small, large = build_atlas(Mesh(V, F)), build_atlas(Mesh(10 * V, F))
+    assert signed_areas(large.uv, large.F_uv).sum() == pytest.approx(
+        100 * signed_areas(small.uv, small.F_uv).sum(), rel=1e-3
+    )
+
+
+def test_what_can_not_be_charted_is_refused_with_a_sentence():
+    V, F = sphere(100)
+    with pytest.raises(OptionError, match="unknown method"):
+        build_atlas(Mesh(V, F), method="magic")
+    with pytest.raises(ChartError, match="not manifold"):
+        build_atlas(Mesh(V, np.concatenate([F, F[:1], F[:1]])))
+    with pytest.raises(ChartError, match="empty"):
+        build_atlas(Mesh(V, F[:0]))
+    with pytest.raises(MeshjigError):
+        build_atlas(Mesh(np.zeros_like(V), F))
+
+
+def test_an_inward_mesh_is_charted_as_it_is():
+    assert_sound(build_atlas(Mesh(*inside_out(sphere(500)))))

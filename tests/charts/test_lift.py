@@ -1,0 +1,84 @@
+import numpy as np
+import pytest
+
+from meshjig.charts import build_atlas, curve, lift
+from meshjig.types import Atlas, Mesh
+from tests.charts.helpers import half_tube
+from tests.meshes import disc, torus
+
+
+@pytest.fixture(scope="module")
+def atlas():
+    return build_atlas(Mesh(*torus(1200)))
+
+
+def flat_atlas(V, F, uv):
+    return Atlas(Mesh(V, F), uv, F, np.zeros(len(F), np.int64))
+
+
+def test_points_of_faces_come_back_to_where_they_were(atlas):
+    rng = np.random.default_rng(0)
+    for chart in range(atlas.n_charts):
+        faces = rng.choice(np.flatnonzero(atlas.chart_of_face == chart), 100)
+        bary = rng.dirichlet([1, 1, 1], 100)
+        uv = np.einsum("kj,kjd->kd", bary, atlas.uv[atlas.F_uv[faces]])
+        found, weights, xyz = lift(atlas, chart, uv)
+        assert (found == faces).all()
+        np.testing.assert_allclose(weights, bary, atol=1e-9)
+        np.testing.assert_allclose(
+            xyz, np.einsum("kj,kjd->kd", bary, atlas.mesh.V[atlas.mesh.F[faces]]), atol=1e-8
+        )
+
+
+def test_a_point_of_another_chart_is_not_found(atlas):
+    other = atlas.uv[atlas.F_uv[atlas.chart_of_face == 1]].mean(1)
+    face, bary, xyz = lift(atlas, 0, other)
+    assert (face == -1).all()
+    assert np.isnan(bary).all()
+    assert np.isnan(xyz).all()
+
+
+def test_a_straight_line_on_a_flat_chart_keeps_its_length():
+    V, F = disc(2000)
+    (line,) = curve(flat_atlas(V, F, V[:, :2].copy()), 0, np.array([[-30.0, -20], [31, 17]]))
+    assert np.linalg.norm(np.diff(line, axis=0), axis=1).sum() == pytest.approx(np.hypot(61, 37), rel=1e-12)
+    assert len(line) > 20
+
+
+def test_a_closed_curve_on_a_rolled_sheet_keeps_its_length_and_bends_at_edges_only():
+    n, radius, length = 24, 20.0, 60.0
+    V, F = half_tube(n, radius, length)
+    facet = 2 * radius * np.sin(np.pi / 2 / n)
+    i, j = np.divmod(np.arange(len(V)), n + 1)
+    uv = np.stack([i * facet, j * length / n], 1)
+    angle = np.linspace(0, 2 * np.pi, 60)
+    circle = np.array([30.0, 30]) + 17 * np.stack([np.cos(angle), np.sin(angle)], 1)
+    (line,) = curve(flat_atlas(V, F, uv), 0, circle)
+    expected = np.linalg.norm(np.diff(circle, axis=0), axis=1).sum()
+    assert np.linalg.norm(np.diff(line, axis=0), axis=1).sum() == pytest.approx(expected, rel=1e-9)
+    np.testing.assert_allclose(line[0], line[-1], atol=1e-9)
+    middles = (line[1:] + line[:-1]) / 2  # each piece lies in a facet, not under it
+    sector = np.pi / n
+    off = np.mod(np.arctan2(middles[:, 1], middles[:, 0]), sector) - sector / 2
+    np.testing.assert_allclose(
+        np.hypot(middles[:, 0], middles[:, 1]) * np.cos(off), radius * np.cos(sector / 2), rtol=1e-9
+    )
+
+
+def test_a_curve_breaks_where_it_leaves_the_chart():
+    V, F = disc(2000)
+    ring = np.linalg.norm(V[F].mean(1), axis=1) > 20
+    parts = curve(flat_atlas(V, F[ring], V[:, :2].copy()), 0, np.array([[-80.0, 0.5], [80, 0.5]]))
+    assert [np.sign(part[:, 0].mean()) for part in parts] == [-1, 1]
+    assert [np.ptp(part[:, 0]) for part in parts] == pytest.approx([30, 30], abs=3)
+
+
+def test_a_line_along_edges_and_through_corners_is_whole():
+    V, F = disc(600)
+    (line,) = curve(flat_atlas(V, F, V[:, :2].copy()), 0, np.array([[-45.0, 0], [45, 0]]))
+    np.testing.assert_allclose(np.linalg.norm(np.diff(line, axis=0), axis=1).sum(), 90, rtol=1e-12)
+
+
+def test_nothing_in_nothing_out(atlas):
+    assert curve(atlas, 0, np.empty((0, 2))) == []
+    assert curve(atlas, 0, np.array([[1e6, 1e6], [1e6, 2e6]])) == []

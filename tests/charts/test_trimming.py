@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+
+from meshjig.charts import build_atlas, lift, trimming_curves
+from meshjig.topology import edges, fans
+from meshjig.types import Atlas, Mesh
+from tests.meshes import cylinder, disc, sphere, torus
+
+
+@pytest.mark.parametrize("mesh", [sphere(800), torus(800), cylinder(600)])
+def test_mates_describe_the_same_points_of_space(mesh):
+    atlas = build_atlas(Mesh(*mesh))
+    for c in trimming_curves(atlas):
+        sides = [(c.chart, c.uv)] + ([(c.mate, c.mate_uv)] if c.mate >= 0 else [])
+        for chart, uv in sides:
+            assert len(uv) == len(c.xyz)
+            inward = uv.mean(0) * 1e-9  # corners lie on the rim: the nearest face is found all the same
+            _, _, xyz = lift(atlas, chart, uv + inward * 0)
+            found = ~np.isnan(xyz[:, 0])
+            assert found.mean() > 0.5
+            np.testing.assert_allclose(xyz[found], c.xyz[found], atol=1e-5)
+
+
+@pytest.mark.parametrize("mesh", [sphere(800), torus(800), cylinder(600)])
+def test_every_border_is_covered_once_from_each_side(mesh):
+    atlas = build_atlas(Mesh(*mesh))
+    curves = trimming_curves(atlas)
+    length = lambda c: np.linalg.norm(np.diff(c.xyz, axis=0), axis=1).sum()  # noqa: E731
+    e = edges(mesh.F)
+    sides = atlas.chart_of_face[np.arange(3 * len(mesh.F)) // 3]
+    seam = sides != sides[e.twin]
+    a, b = mesh.F.ravel(), np.roll(mesh.F, -1, 1).ravel()
+    long = np.linalg.norm(mesh.V[a] - mesh.V[b], axis=1)
+    assert sum(length(c) for c in curves if c.mate >= 0) == pytest.approx(long[seam].sum())
+    border = e.twin == np.arange(len(e.twin))
+    assert sum(length(c) for c in curves if c.mate < 0) == pytest.approx(long[border].sum())
+    one_way = {
+        (c.chart, c.mate, c.xyz.tobytes()) for c in curves if c.mate >= 0 and (c.xyz[0] != c.xyz[-1]).any()
+    }
+    assert {(m, c, np.frombuffer(x).reshape(-1, 3)[::-1].tobytes()) for c, m, x in one_way} == one_way
+
+
+def test_a_chart_lies_on_the_left_and_a_plain_border_closes():
+    V, F = disc(600)
+    (c,) = trimming_curves(Atlas(Mesh(V, F), V[:, :2].copy(), F, np.zeros(len(F), np.int64)))
+    assert (c.chart, c.mate, c.mate_uv.shape) == (0, -1, (0, 2))
+    assert (c.uv[0] == c.uv[-1]).all()
+    x, y = c.uv.T
+    assert (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() > 0
+
+
+def test_a_slit_is_its_own_mate():
+    V, F = disc(600)
+    radius, side = np.linalg.norm(V[F].mean(1), axis=1), V[F].mean(1)[:, 1] > 0
+    G = F.copy()
+    on_slit = (np.abs(V[:, 1]) < 1e-9) & (V[:, 0] > 1)  # from the middle to the rim, along +x
+    split = np.flatnonzero(on_slit)
+    number = np.arange(len(V))
+    number[split] = len(V) + np.arange(len(split))
+    G[side] = number[F[side]]
+    assert radius.min() < 5
+    assert len(fans(G)[1]) == len(V) + len(split)
+    uv = np.concatenate([V[:, :2], V[split, :2]])
+    curves = trimming_curves(Atlas(Mesh(V, F), uv, G, np.zeros(len(F), np.int64)))
+    slit = [c for c in curves if c.mate == 0]
+    assert len(slit) == 2
+    for c in slit:
+        assert c.chart == 0
+        np.testing.assert_allclose(c.uv, c.mate_uv)
+        assert np.linalg.norm(np.diff(c.xyz, axis=0), axis=1).sum() == pytest.approx(50)

@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+
+from meshjig.check import gaps
+from tests.check.pieces import box, hemisphere_shells, turned
+
+LEFT = box([0, 0, 0], [10, 10, 2], 6)
+
+
+def right(gap, n=5):
+    return box([10 + gap, 0.3, 0], [20, 9.7, 2], n)
+
+
+@pytest.mark.parametrize("gap", [0.1, 0.2, 0.5])
+@pytest.mark.parametrize("seed", range(2))
+def test_plates_apart_have_that_gap_everywhere(gap, seed):
+    measured = gaps([turned(piece, seed) for piece in (LEFT, right(gap))], clearance=gap)
+    assert measured.facts(gap) == pytest.approx(
+        {"min": gap, "p1": gap, "median": gap, "within_10pct": 1.0}, abs=1e-6
+    )
+
+
+def test_the_rims_of_half_spheres_have_their_gap():
+    facts = gaps(hemisphere_shells(20, 2, 0.2), clearance=0.2).facts(0.2)
+    assert facts == pytest.approx({"min": 0.2, "p1": 0.2, "median": 0.2, "within_10pct": 1.0}, abs=1e-6)
+
+
+def test_a_tapering_gap_is_measured_along_its_length():
+    V, F = right(0.2)
+    V = V + np.outer((V[:, 0] < 11) * 0.1 * (V[:, 1] - 5) / 4.7, [1, 0, 0])  # from 0.1 to 0.3
+    measured = gaps([LEFT, (V, F)], clearance=0.2)
+    assert measured.min == pytest.approx(0.1, abs=1e-3)
+    facts = measured.facts(0.2)
+    assert facts["median"] == pytest.approx(0.2, abs=0.01)
+    assert facts["within_10pct"] == pytest.approx(0.2, abs=0.03)
+
+
+def test_a_gap_too_wide_is_seen_only_where_neighbours_are_named():
+    pieces = [LEFT, right(0.8)]
+    assert gaps(pieces, clearance=0.2).facts(0.2) == {
+        "min": None,
+        "p1": None,
+        "median": None,
+        "within_10pct": None,
+    }
+    named = gaps(pieces, neighbours=np.array([[0, 1]]), clearance=0.2).facts(0.2)
+    assert named["median"] == pytest.approx(0.8)
+    assert named["within_10pct"] == 0
+
+
+def test_only_named_neighbours_are_measured():
+    close = box([0, 0, 2.05], [10, 10, 4])  # lies on the first, but shares no border with it
+    measured = gaps([LEFT, right(0.2), close], neighbours=np.array([[0, 1]]), clearance=0.2)
+    assert [pair[:2] for pair in measured.pairs] == [(0, 1)]
+    assert measured.facts(0.2)["p1"] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("gap", [0.0, -0.05])
+def test_pieces_that_touch_or_overlap_have_no_gap(gap):
+    measured = gaps([LEFT, right(gap)], clearance=0.2)
+    assert measured.min == 0
+    assert measured.facts(0.2)["median"] == pytest.approx(0, abs=1e-9)
+    assert measured.facts(0.2)["within_10pct"] == 0
+
+
+def test_a_piece_inside_another_has_no_gap():
+    assert gaps([LEFT, box([4, 4, 0.5], [6, 6, 1.5])]).min == 0
+
+
+def test_unknown_clearance_leaves_the_share_unknown():
+    facts = gaps([LEFT, right(0.3)]).facts(None)
+    assert facts["median"] == pytest.approx(0.3)
+    assert facts["within_10pct"] is None
+
+
+def test_an_open_piece_leaves_its_least_distance_unknown():
+    measured = gaps([LEFT, (right(0.2)[0], right(0.2)[1][:-1])], clearance=0.2)
+    assert measured.pairs == [(0, 1, None)]
+    assert measured.min is None
+
+
+def test_a_lone_piece_has_no_gaps():
+    assert gaps([LEFT]).facts(0.2) == {"min": None, "p1": None, "median": None, "within_10pct": None}

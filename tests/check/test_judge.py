@@ -1,0 +1,101 @@
+import numpy as np
+import pytest
+
+from meshjig.check import judge
+from meshjig.errors import InputError
+from tests.check.pieces import box, folded_plate, hemisphere_shells
+from tests.meshes import inside_out, joined, moved
+
+GOOD = hemisphere_shells(20, 2, 0.2)
+ASKED = {"thickness": 2.0, "clearance": 0.2}
+CHECKS = {
+    "closed",
+    "one_component",
+    "self_intersections",
+    "overlap_mm3",
+    "gap_mm",
+    "thickness_mm",
+    "area_error",
+    "discarded_volume_share",
+    "interlocked_borders",
+    "interlocked_length",
+    "head_neck",
+    "thin_necks",
+    "area_cv",
+}
+
+
+def without_a_face(piece):
+    return piece[0], piece[1][1:]
+
+
+def with_a_speck(piece):
+    return joined(piece, box([50, 0, 0], [51, 1, 1]))
+
+
+def pushed(piece, z):
+    return moved(piece, [0, 0, z])
+
+
+def test_a_sound_puzzle_keeps_every_promise():
+    verdict = judge(GOOD, neighbours=[(0, 1)], **ASKED)
+    assert verdict.failures == {}
+    assert verdict.ok
+    assert set(verdict.checks) == CHECKS
+    assert verdict.checks["closed"]
+    assert verdict.checks["self_intersections"] == 0
+    assert verdict.checks["overlap_mm3"] == pytest.approx(0, abs=1e-9)
+    assert verdict.checks["gap_mm"]["within_10pct"] == 1
+    assert verdict.checks["area_cv"] is None
+
+
+@pytest.mark.parametrize(
+    ("second", "promise", "blamed"),
+    [
+        (without_a_face(GOOD[1]), "closed", ["b"]),
+        (with_a_speck(GOOD[1]), "one_component", ["b"]),
+        (inside_out(GOOD[1]), "positive_volume", ["b"]),
+        (pushed(folded_plate(), 100), "self_intersections", ["b"]),
+        (pushed(GOOD[1], 0.3), "overlap_mm3", ["a", "b"]),
+        (pushed(GOOD[1], 0.02), "gap_mm", ["a", "b"]),
+        (pushed(box([0, 0, 0], [90, 90, 3]), 100), "thickness_mm", ["b"]),
+    ],
+)
+def test_each_promise_can_be_broken_and_names_the_piece(second, promise, blamed):
+    pieces = [("a", *GOOD[0]), ("b", *second)]
+    verdict = judge(pieces, **ASKED)
+    assert not verdict.ok
+    assert verdict.failures[promise] == blamed
+
+
+def test_what_is_exempt_is_measured_but_not_held_against_the_puzzle():
+    pieces = [GOOD[0], pushed(GOOD[1], 0.02)]
+    assert not judge(pieces, **ASKED).ok
+    verdict = judge(pieces, **ASKED, exempt=["gap_mm"])
+    assert verdict.ok
+    assert verdict.failures == {"gap_mm": ["piece_001", "piece_002"]}
+
+
+def test_a_promise_about_an_unknown_figure_is_not_held():
+    verdict = judge([GOOD[0], pushed(GOOD[1], 0.1)])
+    assert verdict.ok
+    assert verdict.checks["gap_mm"]["median"] == pytest.approx(0.1, abs=1e-6)
+    assert verdict.checks["gap_mm"]["within_10pct"] is None
+    assert verdict.checks["thickness_mm"]["thin_area_share"] is None
+
+
+def test_overlap_of_an_open_piece_is_unknown():
+    assert judge([GOOD[0], without_a_face(GOOD[1])]).checks["overlap_mm3"] is None
+
+
+@pytest.mark.parametrize(
+    ("pieces", "neighbours", "what"),
+    [
+        ([], None, "no pieces"),
+        ([("leg", np.full((3, 3), np.inf), np.array([[0, 1, 2]]))], None, "leg: .*finite"),
+        (GOOD, [(0, 2)], "beyond the 2"),
+    ],
+)
+def test_what_cannot_be_judged_is_refused(pieces, neighbours, what):
+    with pytest.raises(InputError, match=what):
+        judge(pieces, neighbours=neighbours)

@@ -1,0 +1,47 @@
+"""A model has the size that was asked for, or a plausible one, and there is a way back."""
+
+import numpy as np
+import pytest
+
+from meshjig.scan import to_millimetres
+from tests.meshes import torus
+
+V = torus(300).V
+
+
+@pytest.mark.parametrize(
+    ("extent", "size", "result", "rule"),
+    [
+        (100.0, None, 100.0, "taken as mm"),
+        (20.0, None, 20.0, "taken as mm"),
+        (500.0, None, 500.0, "taken as mm"),
+        (19.9, None, 150.0, "scaled to 150 mm"),
+        (501.0, None, 150.0, "scaled to 150 mm"),
+        (0.1, None, 150.0, "scaled to 150 mm"),
+        (0.1, 80.0, 80.0, "as asked"),
+        (100.0, 700.0, 700.0, "as asked"),
+    ],
+)
+def test_the_largest_extent_follows_the_rule_that_is_named(extent, size, result, rule):
+    scaled = to_millimetres(V * extent / np.ptp(V, axis=0).max(), size)
+    assert np.ptp(scaled.V, axis=0).max() == pytest.approx(result)
+    assert scaled.facts["size_mm"] == pytest.approx(np.ptp(scaled.V, axis=0))
+    assert scaled.facts["scale"] == pytest.approx(result / extent)
+    assert rule in scaled.facts["units"]
+
+
+@pytest.mark.parametrize("offset", [0.0, 300.0, 5e5])
+@pytest.mark.parametrize("size", [None, 42.0])
+def test_the_matrix_leads_back_to_the_source(offset, size):
+    source = V + [offset, -offset, 1]
+    scaled = to_millimetres(source, size)
+    back = np.column_stack([scaled.V, np.ones(len(V))]) @ scaled.to_source.T
+    np.testing.assert_allclose(back[:, :3], source, atol=1e-9 * max(1, offset))
+
+
+def test_only_a_model_far_away_is_moved():
+    assert to_millimetres(V + 200).facts["moved_mm"] is None
+    np.testing.assert_array_equal(to_millimetres(V + 200).V, V + 200)
+    far = to_millimetres(V + [5000, 0, 0])
+    assert far.facts["moved_mm"] == pytest.approx([-5000, 0, 0], abs=1)
+    assert np.abs(far.V).max() < 100
