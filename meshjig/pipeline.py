@@ -10,6 +10,7 @@ import numpy as np
 from meshjig.charts import build_atlas
 from meshjig.check import judge
 from meshjig.check.interlock import interlock
+from meshjig.check.outer_gap import outer_gap
 from meshjig.cut.carry import carry_pieces
 from meshjig.cut.clearance import gap_outlines
 from meshjig.cut.curves import cut_curves
@@ -80,6 +81,7 @@ def make_puzzle(
         solids = [printable(solid.V, solid.F) for solid in raw]
     with stages("check"):
         locks = interlock(cut, knobs, piece_of_face)
+        gap = outer_gap(parts.V, parts.F, piece_of_part, options.clearance)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         verdict = judge(
             [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
@@ -93,7 +95,7 @@ def make_puzzle(
         for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
     ]
     report = assemble_report(
-        options, scan, atlas, cut, stitching, piece_of_face, locks, verdict, solids, thickness | facts, discarded, stages
+        options, scan, atlas, cut, stitching, piece_of_face, locks, verdict, solids, thickness | facts, gap, discarded, stages
     )
     return Puzzle(pieces, report, _curves(cut, outlines, piece_of_face) if options.curves else Curves())
 

@@ -36,6 +36,7 @@ def assemble_report(
     verdict: Verdict,
     solids: list[tuple[Floats, Ints]],
     solid_facts: dict[str, Any],
+    gap_outer: dict[str, Any],
     discarded: float,
     stages: Stages,
 ) -> dict[str, Any]:
@@ -47,6 +48,7 @@ def assemble_report(
         What the stages made.
     piece_of_face : (m,) int64, for the faces of cut
     solid_facts : dict, what the solid stage says of itself
+    gap_outer : dict, the gap on the outer surface
     discarded : float, share of the area that the gap cut off from its piece
     stages : Stages
     """
@@ -57,6 +59,7 @@ def assemble_report(
     surface = face_areas(mesh.V, mesh.F).sum()
     checks = {
         **verdict.checks,
+        "gap_outer_mm": gap_outer,
         "area_error": float(abs(areas.sum() - surface) / surface),
         "discarded_volume_share": discarded,
         "interlocked_borders": locks.interlocked_borders,

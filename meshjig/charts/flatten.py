@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.arap import arap
+from meshjig.charts.border import border_loop
 from meshjig.charts.lscm import lscm
 from meshjig.charts.slim import slim
 from meshjig.charts.tutte import tutte
@@ -27,25 +28,28 @@ Ints = NDArray[np.int64]
 Method = Literal["lscm", "arap", "slim"]
 
 FLAT_LIMITS = (0.8, 1.25)  # stretch that a person does not notice on a jigsaw tile
+_ITERATIONS = (20, 6, 3)
+_HEAVY = 12_000  # faces from which SLIM is too slow for the full number
 _LEAST_AREA = 1e-14  # of the square of the chart's extent
 
 
-def flatten(V: Floats, F: Ints, method: Method = "slim", iterations: int = 20) -> Floats:
+def flatten(V: Floats, F: Ints, method: Method = "slim") -> Floats:
     """Flatten a chart without mirrored faces, at a mean stretch of 1.
 
     LSCM comes first; where it mirrors faces, Tutte's embedding takes its place and SLIM follows,
-    whatever the method. ARAP that mirrors faces gives way to SLIM.
+    whatever the method. LSCM or ARAP that folds or overlaps gives way to SLIM. A chart may grow into
+    itself as it nears isometry: then it stops earlier, where that helps.
 
     Parameters
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64, one disc that uses every vertex
     method : str
-    iterations : int, of SLIM or ARAP
 
     Returns
     -------
-    uv : (n, 2) float64, mm. The area-weighted geometric mean of the stretch is 1.
+    uv : (n, 2) float64, mm. The area-weighted geometric mean of the stretch is 1. The border may
+        still meet itself: see border_is_simple.
 
     Raises
     ------
@@ -53,15 +57,19 @@ def flatten(V: Floats, F: Ints, method: Method = "slim", iterations: int = 20) -
         Every way of flattening mirrored a face.
     """
     start, conformal = _start(V, F)
-    if method == "lscm" and conformal:
-        return unit_stretch(V, F, start)
-    if method == "arap" and conformal:
-        uv = arap(V, F, start, iterations)
-        if is_unflipped(uv, F):
+    first: list[Floats] = []
+    if conformal and method == "lscm":
+        first = [start]
+    elif conformal and method == "arap":
+        first = [arap(V, F, start)]
+    for uv in first:
+        if is_unflipped(uv, F) and border_is_simple(uv, F):
             return unit_stretch(V, F, uv)
-    uv = slim(V, F, start, iterations)
-    if not is_unflipped(uv, F):
-        uv = start
+    for iterations in _ITERATIONS if len(F) < _HEAVY else _ITERATIONS[1:]:
+        uv = slim(V, F, start, iterations)
+        uv = uv if is_unflipped(uv, F) else start
+        if border_is_simple(uv, F):
+            break
     if not is_unflipped(uv, F):
         raise ChartError("a chart can't be flattened without folds", hint="repair its degenerate faces")
     return unit_stretch(V, F, uv)
@@ -96,10 +104,9 @@ def border_is_simple(uv: Floats, F: Ints) -> bool:
 
     With no face mirrored, this makes the map one to one.
     """
-    import igl
     import shapely
 
-    return bool(shapely.LinearRing(uv[igl.boundary_loop(F)]).is_simple)
+    return bool(shapely.LinearRing(uv[border_loop(F)]).is_simple)
 
 
 def _start(V: Floats, F: Ints) -> tuple[Floats, bool]:

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.border import border_loop
 from meshjig.errors import ChartError
 from meshjig.measure import face_areas
 
@@ -38,7 +39,7 @@ def lscm(V: Floats, F: Ints) -> Floats:
     """
     import igl
 
-    border = igl.boundary_loop(F)
+    border = border_loop(F)
     if len(border) < 3:
         raise ChartError("a chart without a border can't be flattened", hint="cut it first")
     first = border[0]

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.dual import dual
-from meshjig.charts.flatten import Method, border_is_simple, flatten, is_unflipped
+from meshjig.charts.flatten import Method, border_is_simple, flatten
 from meshjig.charts.patches import patches
 from meshjig.errors import ChartError
 from meshjig.topology import compact, components, is_disc
@@ -13,8 +13,6 @@ __all__ = ["rescue"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-_ITERATIONS = (15, 6, 2)
 
 
 def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[tuple[Ints, Floats]]:
@@ -54,11 +52,8 @@ def _sound(V: Floats, F: Ints, method: Method) -> Floats | None:
     """Flatten faces; None where they are no disc, fold or overlap themselves."""
     if not is_disc(F):
         return None
-    for iterations in _ITERATIONS:  # a chart may grow into itself as it nears isometry
-        try:
-            uv = flatten(V, F, method, iterations)
-        except ChartError:
-            return None
-        if is_unflipped(uv, F) and border_is_simple(uv, F):
-            return uv
-    return None
+    try:
+        uv = flatten(V, F, method)
+    except ChartError:
+        return None
+    return uv if border_is_simple(uv, F) else None

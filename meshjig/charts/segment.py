@@ -9,6 +9,7 @@ from meshjig.charts.merge import merge
 from meshjig.charts.patches import patches
 from meshjig.charts.smooth import smooth
 from meshjig.charts.split import split
+from meshjig.charts.tidy import tidy
 
 __all__ = ["segment"]
 
@@ -38,7 +39,8 @@ def segment(V: Floats, F: Ints, n_patches: int = 60, seed: int = 0, rounds: int 
     graph = dual(V, F)
     label = merge(graph, split(V, F, patches(graph, n_patches, seed), judge.accepts, seed), judge)
     for _ in range(rounds):
-        smoother = merge(graph, split(V, F, smooth(graph, label), judge.accepts, seed), judge)
+        straight = tidy(F, smooth(graph, label), graph.area)
+        smoother = merge(graph, split(V, F, straight, judge.accepts, seed), judge)
         if smoother.max() > label.max():
             break
         label = smoother

@@ -29,8 +29,9 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
 
     _, near, _ = igl.point_mesh_squared_distance(V[F].mean(1), W, G)
     N, M = area_vectors(V, F), area_vectors(W, G)
-    other_side = np.einsum("ij,ij->i", N, M[near]) < 0  # of a thin sheet
-    return tidy(F, np.where(other_side, -1, label[near]), face_areas(V, F))
+    same_side = np.einsum("ij,ij->i", N, M[near]) >= 0  # of a thin sheet
+    known = np.where(same_side, label[near], -1) if same_side.any() else label[near]
+    return tidy(F, known, face_areas(V, F))
 
 
 def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:

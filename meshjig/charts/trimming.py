@@ -44,10 +44,11 @@ def trimming_curves(atlas: Atlas) -> list[TrimmingCurve]:
     rim = np.flatnonzero(edges(atlas.F_uv).twin == h)
     mate = np.where(twin[rim] == rim, -1, atlas.chart_of_face[twin[rim] // 3])
     following = _following(G, rim)
-    # A curve goes on when both sides do: the mate, running backwards, must start where this one ends.
+    # A curve goes on when both sides do: the mate must have come from where it
+    # goes to now, and must not be the way back, as at the end of a slit.
     goes_on = mate == mate[following]
     mate_start, next_mate_end = G[twin[rim]], G[next_halfedge(twin[rim[following]])]
-    goes_on &= (mate < 0) | (mate_start == next_mate_end)
+    goes_on &= (mate < 0) | ((mate_start == next_mate_end) & (twin[rim] != rim[following]))
     curves = []
     for run in _runs(following, goes_on):
         r = rim[run]

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.border import border_loop
 from meshjig.measure import face_areas
 from meshjig.topology import edges
 
@@ -30,11 +31,10 @@ def tutte(V: Floats, F: Ints) -> Floats:
     ----------
     Tutte, "How to Draw a Graph", 1963.
     """
-    import igl
     from scipy.sparse import coo_matrix, diags
     from scipy.sparse.linalg import splu
 
-    border = igl.boundary_loop(F)
+    border = border_loop(F)
     uv = np.zeros((len(V), 2))
     uv[border] = _circle(V[border]) * np.sqrt(face_areas(V, F).sum() / np.pi)
     free = np.setdiff1d(np.arange(len(V)), border)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.check.arrays import Piece, boxes, close_boxes
-from meshjig.check.samples import Samples, Soup, area_samples, soup
+from meshjig.check.samples import Soup, area_samples, soup
 from meshjig.check.solids import Body, bodies
 from meshjig.types import Bools, Floats, Ints
 
@@ -88,53 +88,59 @@ def gap_between_bodies(
     reach : float, mm
     found : bool, the pairs are guesses: those farther apart than the reach are no neighbours
     """
+    pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
+    walls, bounds = _wall_distances(pieces, pairs, reach)
     measured: list[tuple[int, int, float | None]] = []
-    for i, j in np.asarray(pairs, np.int64).reshape(-1, 2).tolist():
+    for i, j in pairs.tolist():
         if bodies[i] is None or bodies[j] is None:
             measured.append((i, j, None))
             continue
-        distance = float(bodies[i].min_gap(bodies[j], reach))
+        # a distance that was met somewhere bounds the search, and the search is what takes the time
+        bound = min(bounds.get((i, j), reach), bounds.get((j, i), reach), reach) + 1e-6
+        distance = float(bodies[i].min_gap(bodies[j], bound))
         if not found or distance < reach:
-            measured.append((i, j, distance))
-    near = np.array([(i, j) for i, j, _ in measured], np.int64).reshape(-1, 2)
-    return Gap(measured, _wall_distances(pieces, near, reach))
+            measured.append((i, j, min(distance, reach)))
+    return Gap(measured, walls)
 
 
-def _wall_distances(pieces: Sequence[Piece], pairs: Ints, reach: float) -> Floats:
-    """Give the distance from points all over the walls to the nearest neighbour, (k,), mm."""
-    if not len(pairs):
-        return np.zeros(0)
+def _wall_distances(
+    pieces: Sequence[Piece], pairs: Ints, reach: float
+) -> tuple[Floats, dict[tuple[int, int], float]]:
+    """Give the distance from points all over the walls to the nearest neighbour, (k,), mm.
+
+    Also give the least distance met between two pieces, on walls or elsewhere.
+    """
+    walls, bounds = [np.zeros(0)], {}
     s = soup(pieces)
-    samples = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
+    P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
     low, high = s.V[s.F].min(1), s.V[s.F].max(1)
     box_low, box_high = boxes(pieces)
-    of_piece = np.searchsorted(samples.face, s.start)
+    of_piece = np.searchsorted(face, s.start)
     both = np.concatenate([pairs, pairs[:, ::-1]])
-    distances = []
     for i in np.unique(both):
         others = both[both[:, 0] == i, 1]
         own = np.arange(of_piece[i], of_piece[i + 1])
-        own = own[_inside_any(samples.P[own], box_low[others] - reach, box_high[others] + reach)]
+        own = own[_inside_any(P[own], box_low[others] - reach, box_high[others] + reach)]
         across = np.concatenate([np.arange(s.start[j], s.start[j + 1]) for j in others])
-        touching = (low[across] <= box_high[i] + reach) & (high[across] >= box_low[i] - reach)
-        across = across[touching.all(1)]
-        if len(own) and len(across):
-            distances.append(_facing_distances(s, Samples(samples.P[own], samples.face[own]), across, reach))
-    return np.concatenate(distances) if distances else np.zeros(0)
+        across = across[((low[across] <= box_high[i] + reach) & (high[across] >= box_low[i] - reach)).all(1)]
+        if not len(own) or not len(across):
+            continue
+        nearest, distance, signed = _nearest(s, P[own], across)
+        facing = np.einsum("ij,ij->i", s.N[nearest], s.N[face[own]]) <= _FACING
+        walls.append(signed[facing & (distance < reach)])
+        for j in others:
+            bounds[int(i), int(j)] = float(distance.min(where=s.piece[nearest] == j, initial=np.inf))
+    return np.concatenate(walls), bounds
 
 
-def _facing_distances(s: Soup, samples: Samples, across: Ints, reach: float) -> Floats:
-    """Give the distances of those samples that face one of the faces across, within reach; 0 inside."""
+def _nearest(s: Soup, P: Floats, faces: Ints) -> tuple[Ints, Floats, Floats]:
+    """Give the nearest of some faces to points, the distance, and that distance but 0 behind the face."""
     import igl
 
-    squared, nearest, foot = igl.point_mesh_squared_distance(
-        samples.P, s.V, np.ascontiguousarray(s.F[across])
-    )
-    normal = s.N[across[nearest]]
-    distance = np.sqrt(squared)
-    facing = np.einsum("ij,ij->i", normal, s.N[samples.face]) <= _FACING
-    behind = np.einsum("ij,ij->i", normal, samples.P - foot) < 0
-    return np.where(behind, 0.0, distance)[facing & (distance < reach)]
+    squared, at, foot = igl.point_mesh_squared_distance(P, s.V, np.ascontiguousarray(s.F[faces]))
+    nearest, distance = faces[at], np.sqrt(squared)
+    behind = np.einsum("ij,ij->i", s.N[nearest], P - foot) < 0
+    return nearest, distance, np.where(behind, 0.0, distance)
 
 
 def _inside_any(P: Floats, low: Floats, high: Floats) -> Bools:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.check.arrays import Piece
-from meshjig.measure import area_vectors, interpolate, unit
+from meshjig.measure import area_vectors, interpolate
 from meshjig.types import Floats, Ints
 
 __all__ = ["Samples", "Soup", "area_samples", "soup"]
@@ -21,6 +21,7 @@ class Soup(NamedTuple):
     F: Ints  # (m, 3)
     piece: Ints  # (m,), the piece of a face
     N: Floats  # (m, 3), unit normals
+    area: Floats  # (m,), mm2
     start: Ints  # (pieces + 1,), where a piece's faces start
 
 
@@ -38,7 +39,9 @@ def soup(pieces: Sequence[Piece]) -> Soup:
     F = np.concatenate([F + shift for (_, F), shift in zip(pieces, first, strict=False)])
     count = [len(F) for _, F in pieces]
     piece = np.repeat(np.arange(len(pieces)), count)
-    return Soup(V, F, piece, unit(area_vectors(V, F)), np.cumsum([0, *count]))
+    twice = area_vectors(V, F)
+    area = np.linalg.norm(twice, axis=1) / 2
+    return Soup(V, F, piece, twice / np.maximum(2 * area, 1e-300)[:, None], area, np.cumsum([0, *count]))
 
 
 def area_samples(s: Soup, n: int) -> Samples:
@@ -47,8 +50,7 @@ def area_samples(s: Soup, n: int) -> Samples:
     Steps of equal area through the list of faces, and within a face a golden-ratio sequence:
     as random as needed, and the same every time.
     """
-    double_area = np.linalg.norm(area_vectors(s.V, s.F), axis=1)
-    end = np.cumsum(double_area)
+    end = np.cumsum(s.area)
     face = np.searchsorted(end, (np.arange(n) + 0.5) * (end[-1] / n), side="right")
     face = np.minimum(face, len(s.F) - 1)
     k = np.arange(1, n + 1)

@@ -56,7 +56,7 @@ def make_cells(U: Ints, S: Ints, a: Ints, b: Ints) -> tuple[Cells, Boxes]:
     around : Boxes, of the segments
     """
     some = S[:: max(1, len(S) // 20000)]
-    typical = float(np.median(np.abs(U[some[:, 0]] - U[some[:, 1]]).max(axis=1)))
+    typical = float(np.abs(U[some[:, 0]] - U[some[:, 1]]).max(axis=1).mean())
     top = np.maximum(U.max(axis=0), np.maximum(a, b).max(axis=0, initial=0))
     size = int(max(typical / 2, top.max() / 4000, 1))
     while True:

@@ -6,12 +6,14 @@ import numpy as np
 
 from meshjig.cut.borders import PlaneCurves, SeamEdges, cut_borders, seam_borders
 from meshjig.cut.metric import face_metric, half_width
+from meshjig.measure import area_vectors, unit
 from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 
 __all__ = ["gap_outlines"]
 
 WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
 GRID = 2.0**-12  # mm, where the band's corners come to lie
+WIDEST = 1.7  # times the half clearance, on either side of a crease
 ARC = 6  # corners of a quarter circle
 
 
@@ -27,6 +29,7 @@ def gap_outlines(
 
     With ``stretch`` the width in the plane makes up for the stretch of the chart, so that the gap on
     the surface is the clearance. With ``domain`` the width in the plane is the clearance itself.
+    Along a crease the band is wider, since the gap is measured straight from piece to piece.
     A band that runs over a seam where a piece goes on is carried to the chart on the other side.
 
     Parameters
@@ -53,6 +56,8 @@ def gap_outlines(
     seams = seam_borders(atlas, cut, piece_of_face)
     curve_width = _widths(atlas, curves.start, curves.end, curves.parent, clearance, method)
     seam_width = _widths(atlas, seams.start, seams.end, seams.parent, clearance, method)
+    if method == "stretch":
+        seam_width *= _around_crease(atlas, seams)
     active = seams.active
     shapes = np.concatenate(
         [
@@ -62,7 +67,7 @@ def gap_outlines(
         ]
     )
     band = shapely.union_all(shapes)
-    band = shapely.set_precision(shapely.simplify(band, GRID), GRID)
+    band = shapely.set_precision(shapely.simplify(band, clearance / 100), GRID)
     return _as_outlines(band, clearance)
 
 
@@ -71,6 +76,14 @@ def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: f
         return np.full(len(start), clearance / 2)
     width = half_width(face_metric(atlas, parent), end - start, clearance)
     return np.clip(width, clearance / 6, 1.5 * clearance)
+
+
+def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
+    """Give the factor that keeps the straight gap when both sides of a seam turn away from each other."""
+    mesh = atlas.mesh
+    normal = unit(area_vectors(mesh.V, mesh.F[seams.parent]))
+    cos = np.einsum("ij,ij->i", normal, normal[seams.mate])
+    return 1 / np.sqrt(np.clip((1 + cos) / 2, WIDEST**-2, 1))
 
 
 def _buffered_curves(curves: PlaneCurves, width: Floats) -> np.ndarray:

@@ -106,13 +106,15 @@ def _turns(graph: Graph, links: Links, point: Ints, stop: Ints, half: Ints, n_ri
     About a landing, faces lie on the left of half-edges: who arrives leaves by the next direction
     clockwise, or counter-clockwise in a mirrored face.
     """
+    if not len(half):
+        return half
     nl = len(links.face)
-    link, is_back = half % nl if nl else half, half >= nl
+    link, is_back = half % nl, half >= nl
     ends = graph.segments[links.segment[link]]
     far = np.where(ends[:, 0] == point, ends[:, 1], ends[:, 0])
     order = angular_order(stop, graph.points[far] - graph.points[point])
     group = stop[order]
-    first = np.flatnonzero(np.append(True, group[1:] != group[:-1])) if len(group) else order
+    first = np.flatnonzero(np.append(True, group[1:] != group[:-1]))
     last = np.append(first[1:], len(group)) - 1
     successor = np.arange(1, len(group) + 1)
     successor[last] = first

@@ -14,7 +14,7 @@ __all__ = ["FINEST", "Graph", "snap"]
 
 FINEST = 18  # the grid is never finer than 2^-18 mm
 LIMIT = 2**30  # orient() is exact below
-SHORT_MM = 1e-4  # shorter segments are contracted: nothing printable is that small
+SHORT_MM = 0.0  # shorter segments are contracted: nothing printable is that small
 
 
 class Graph(NamedTuple):

@@ -91,7 +91,7 @@ def _line_cover(identity: Ints, row: Ints, column: Ints) -> Floats32:
     cover = np.zeros(len(here), np.float32)
     for down, weight_down in ((-1, 0.25), (0, 0.5), (1, 0.25)):
         for right, weight_right in ((-1, 0.25), (0, 0.5), (1, 0.25)):
-            cover += np.float32(1.35 * weight_down * weight_right) * flat[here + down * width + right]
+            cover += np.float32(2 * weight_down * weight_right) * flat[here + down * width + right]
     return np.minimum(cover, 1)
 
 

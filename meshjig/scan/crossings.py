@@ -12,8 +12,9 @@ __all__ = ["self_crossings"]
 def self_crossings(V: Floats, F: Ints) -> Ints | None:
     """List the pairs of faces that cross, by exact arithmetic.
 
-    Neighbours that meet in their shared edge or corner only are no crossing; neighbours that overlap or
-    pass through each other are. Every pair counts, however shallow: the coordinates are taken as given.
+    Faces that meet in a shared edge or corner only are no crossing; neighbours that pass through each
+    other are, and so are faces that overlap in one plane. Every pair counts, however shallow: the
+    coordinates are taken as given.
 
     Parameters
     ----------
@@ -27,7 +28,8 @@ def self_crossings(V: Floats, F: Ints) -> Ints | None:
 
     Notes
     -----
-    About 0.15 s for 100,000 faces: a sweep over boxes first, then CGAL's exact predicates.
+    About 0.15 s for 100,000 faces: a sweep over boxes first, then CGAL's exact predicates. Two faces
+    whose corners lie in the same three places are not reported.
     """
     if not len(F):
         return np.zeros((0, 2), np.int64)

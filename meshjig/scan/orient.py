@@ -15,7 +15,7 @@ from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Sides", "make_coherent", "turn_outward"]
 
-_CLEAR = 0.02  # volume / area^1.5 above which an open surface has an inside: a half sphere has 0.13
+_CLEAR = 0.05  # volume / area^1.5 above which an open surface has an inside: a half sphere has 0.13
 
 
 class Sides(NamedTuple):

@@ -12,6 +12,7 @@ __all__ = ["Scaled", "to_millimetres"]
 
 _PLAUSIBLE = (20.0, 500.0)  # mm; a model of such extent was most likely made in mm
 _DEFAULT = 150.0  # mm
+_FLOAT32 = 1e-6  # a model of 500 mm may come back from a file with 500.00002
 _FAR = 1000.0  # mm from the origin, where the float32 of an STL file is down to 0.0001
 
 
@@ -42,7 +43,7 @@ def to_millimetres(V: Floats, size: float | None = None) -> Scaled:
     extent = float((high - low).max())
     if size is not None:
         scale, units = size / extent, f"largest extent set to {size:g} mm as asked"
-    elif _PLAUSIBLE[0] <= extent <= _PLAUSIBLE[1]:
+    elif _PLAUSIBLE[0] * (1 - _FLOAT32) <= extent <= _PLAUSIBLE[1] * (1 + _FLOAT32):
         scale, units = 1.0, f"largest extent {extent:g} taken as mm"
     else:
         scale, units = (

@@ -71,4 +71,5 @@ def _corner_angles(V: Floats, F: Ints) -> Floats:
 
 
 def _sum_at_vertices(F: Ints, corner_values: Floats, n: int) -> Floats:
-    return np.bincount(F.ravel(), corner_values.ravel(), n)
+    total: Floats = np.bincount(F.ravel(), corner_values.ravel(), n)
+    return total

@@ -15,25 +15,26 @@ _PINCH = 4e-3  # mm, how far the sides of a pinch move into the piece
 _ROUNDS = 8
 
 
-def pull_fans_apart(X: Floats, F: Ints, source: Ints, owner: Ints) -> tuple[Floats, dict[str, int]]:
-    """Move the copies of a pinch vertex into the fans they belong to.
+def pull_fans_apart(X: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
+    """Move vertices of one piece that stand in one place into the fans they belong to.
+
+    Such are the copies of a pinch vertex, and what a repair has split before.
 
     Parameters
     ----------
     X : (n, 3) float64, mm
     F : (m, 3) int64, every vertex one fan
-    source, owner : (n,) int64: copies share both
+    owner : (n,) int64, the piece
 
     Returns
     -------
     X : (n, 3) float64
-    facts : {"pinches": int}, copies moved
+    moved : int
     """
-    key = owner * np.int64(source.max(initial=0) + 1) + source
-    _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
-    copy = count[inverse.ravel()] > 1
-    if not copy.any():
-        return X, {"pinches": 0}
+    again = _repeats(X, owner)
+    if not again.any():
+        return X, 0
+    copy = again | _repeats(X[::-1], owner[::-1])[::-1]
     corner = np.flatnonzero(copy[F.ravel()])
     v = F.ravel()[corner]
     inward = X[F[corner // 3]].mean(1) - X[v]
@@ -44,7 +45,7 @@ def pull_fans_apart(X: Floats, F: Ints, source: Ints, owner: Ints) -> tuple[Floa
     move = np.minimum(_PINCH, 0.2 * reach[copy])[:, None] * unit(total[copy])
     X = X.copy()
     X[copy] += move
-    return X, {"pinches": int(copy.sum())}
+    return X, int(copy.sum())
 
 
 def pull_inner_apart(X: Floats, Y: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
@@ -77,7 +78,7 @@ def pull_inner_apart(X: Floats, Y: Floats, F: Ints, owner: Ints) -> tuple[Floats
         np.add.at(Y, b, way)
         moved[a] = moved[b] = True
     for k in range(_ROUNDS):
-        twice = _coincide(X, Y, owner)
+        twice = _repeats(np.concatenate([X, Y]), np.concatenate([owner, owner]))[len(X) :]
         if not twice.any():
             break
         Y[twice] += (k + 1) * _APART * unit(X[twice] - Y[twice])
@@ -85,16 +86,16 @@ def pull_inner_apart(X: Floats, Y: Floats, F: Ints, owner: Ints) -> tuple[Floats
     return Y, int(moved.sum())
 
 
-def _coincide(X: Floats, Y: Floats, owner: Ints) -> Bools:
-    """Mark inner vertices that equal an earlier vertex of their piece in float32."""
-    points = np.concatenate([X, Y]).astype(np.float32) + np.float32(0)  # no negative zero
-    bits = points.view(np.uint32).astype(np.uint64)
+def _repeats(points: Floats, owner: Ints) -> Bools:
+    """Mark points that equal an earlier one of their piece in float32."""
+    single = points.astype(np.float32) + np.float32(0)  # no negative zero
+    bits = single.view(np.uint32).astype(np.uint64)
     mix = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
     mix ^= bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F) + (mix >> np.uint64(29))
     mix ^= bits[:, 2] * np.uint64(0x165667B19E3779F9) + (mix >> np.uint64(31))
-    mix ^= np.concatenate([owner, owner]).astype(np.uint64) * np.uint64(0x27D4EB2F165667C5)
+    mix ^= owner.astype(np.uint64) * np.uint64(0x27D4EB2F165667C5)
     order = np.argsort(mix, kind="stable")
-    again = np.zeros(len(points), bool)
     same = mix[order[1:]] == mix[order[:-1]]
-    again[order[1:]] = same & (points[order[1:]] == points[order[:-1]]).all(1)
-    return again[len(X) :]
+    again = np.zeros(len(points), bool)
+    again[order[1:]] = same & (single[order[1:]] == single[order[:-1]]).all(1)
+    return again

@@ -32,14 +32,16 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
     Returns
     -------
     D : (n, 3) float64
-    facts : {"folds_left": faces that still flip or cross, "rounds": int}
+    facts : {"folds_left": faces that still flip or cross, "crossings_left": those that cross, "rounds": int}
 
     Notes
     -----
     Smoothing works on inner positions, not on D: it spreads vertices that have run into each other, and
-    leaves the sheet smooth. Where far parts of the surface meet, D is shortened as well. What smoothing
-    can't open retreats to the outer sheet along directions that see all faces around their vertex: short
-    enough, such a sheet has no folds that the outer sheet doesn't have.
+    leaves the sheet smooth. Where far parts of the surface meet, D is shortened as well. What still crosses
+    then retreats to the outer sheet along directions that see all faces around their vertex: short enough,
+    such a sheet crosses nothing. A flip alone is left then: under an overhang finer than the thickness it
+    means that D leans, not that the sheets meet. Crossings of the outer sheet with itself, and what crosses
+    them, are left alone.
     """
     n, m = len(V), len(F)
     mean = _neighbour_mean(F, n)
@@ -79,7 +81,7 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
         flips[touched] = flipped(V, F[touched], D)
         changed = None if changed is None else changed | moved
         rounds += 1
-    return D, {"folds_left": int((flips | hit).sum()), "rounds": rounds}
+    return D, {"folds_left": int((flips | hit).sum()), "crossings_left": int(hit.sum()), "rounds": rounds}
 
 
 def flipped(V: Floats, F: Ints, D: Floats) -> Bools:

@@ -39,7 +39,7 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     Returns
     -------
     solids : list of Solid, by piece number; a number without faces has an empty one
-    facts : dict; {"raised": vertices whose D was too short, "pinches": vertices split, "nudged": inner
+    facts : dict; {"raised": vertices whose D was too short, "pinches": vertices moved because a piece touched itself there, "nudged": inner
         vertices moved because they fell together, "shrunk": pieces made thinner to keep a positive volume}
 
     Notes
@@ -54,7 +54,7 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     kept = kept[np.argsort(piece_of_face[kept], kind="stable")]
     label = piece_of_face[kept]
     G, source, owner = _vertices_of_pieces(F[kept], label, len(V))
-    X, fan_facts = pull_fans_apart(V[source], G, source, owner)
+    X, pinches = pull_fans_apart(V[source], G, owner)
     step, raised = _at_least(D[source], X, G)
     border = _border(G)
     walls_of = label[border[:, 2]]
@@ -64,7 +64,7 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     piece = np.concatenate([label, label, walls_of, walls_of])
     Y, shrunk = _with_volume(X, Y, corners, piece, owner, n_pieces)
     solids = _apart(X, Y, corners, kind, piece, owner, n_pieces)
-    return solids, {"raised": raised, "nudged": nudged, "shrunk": shrunk, **fan_facts}
+    return solids, {"raised": raised, "pinches": pinches, "nudged": nudged, "shrunk": shrunk}
 
 
 def _vertices_of_pieces(F: Ints, label: Ints, n: int) -> tuple[Ints, Ints, Ints]:
@@ -131,7 +131,8 @@ def _with_volume(
 
 def _volumes(V: Floats, F: Ints, piece: Ints, n_pieces: int) -> Floats:
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
-    return np.bincount(piece, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6, n_pieces)
+    volume: Floats = np.bincount(piece, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6, n_pieces)
+    return volume
 
 
 def _apart(

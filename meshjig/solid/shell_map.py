@@ -40,7 +40,8 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
     -------
     D : (n, 3) float64, mm; V + D is the inner sheet
     facts : dict; {"thin_area_share": share of the area that is below 0.8 of the thickness,
-        "min_thickness": shortest D, mm, "folds_left": faces that still flip or cross, "rounds": int}
+        "min_thickness": shortest D, mm, "folds_left": faces whose inner side still flips or crosses,
+        "crossings_left": those that cross, "rounds": int}
 
     Raises
     ------

@@ -24,20 +24,22 @@ def test_the_two_sides_of_a_thin_sheet_are_told_apart():
     top = disc(3000)
     V = np.concatenate([top.V + np.array([0, 0, 0.02]), top.V - np.array([0, 0, 0.02])])
     F = np.concatenate([top.F, top.F[:, ::-1] + len(top.V)])
-    # The proxy's sheets have changed places by a hair, as decimation may do.
-    swapped = V * [1, 1, -1.0]
+    # On one half, the proxy's sheets have changed places by a hair, as decimation may do.
+    swapped = np.where((V[:, :1] > 0) & [[False, False, True]], -V, V)
     label = transfer_labels(V, F[: len(top.F)], swapped, F, np.repeat([0, 1], len(top.F)))
-    assert (label == -1).all()  # nothing known is better than the wrong side
+    assert (label == 0).all()
 
 
 @pytest.mark.parametrize("amount", [0.0, 0.2])
 def test_a_map_carried_from_the_proxy_is_as_flat_as_the_proxy_and_nowhere_mirrored(amount):
     V, F = noisy(half_sphere(20000), amount)
     W, G = proxy(V, F, 1000)
-    uv = untangle(V, F, transfer_uv(V, W, G, flatten(W, G)))
+    light = flatten(W, G)
+    uv = untangle(V, F, transfer_uv(V, W, G, light))
     assert all_turn_left(uv, F)
-    s = singular_values(V, F, uv)
-    assert np.quantile(s, [0.02, 0.98]) == pytest.approx([0.8, 1.2], abs=0.2)
+    share = [0.1, 0.5, 0.9]
+    before, after = (np.quantile(singular_values(*m), share, axis=0) for m in ((W, G, light), (V, F, uv)))
+    np.testing.assert_allclose(after, before, atol=0.05 + amount)
 
 
 def test_untangle_moves_only_what_is_mirrored():

@@ -73,9 +73,9 @@ def test_components_are_counted():
 
 
 def test_volume_has_a_sign_and_is_the_cubes():
-    V, F = box([100, 200, 300], [101, 202, 303])
-    assert volume(V, F) == pytest.approx(6)
-    assert volume(*inside_out((V, F))) == pytest.approx(-6)
+    block = box([100, 200, 300], [101, 202, 303])
+    assert volume(*block) == pytest.approx(6)
+    assert volume(*inside_out(block)) == pytest.approx(-6)
 
 
 def _with_edge_split(F, a, b, new):

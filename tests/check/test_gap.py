@@ -8,7 +8,7 @@ LEFT = box([0, 0, 0], [10, 10, 2], 6)
 
 
 def right(gap, n=5):
-    return box([10 + gap, 0.3, 0], [20, 9.7, 2], n)
+    return box([10 + gap, 0, 0], [20, 10, 2], n)
 
 
 @pytest.mark.parametrize("gap", [0.1, 0.2, 0.5])
@@ -27,7 +27,7 @@ def test_the_rims_of_half_spheres_have_their_gap():
 
 def test_a_tapering_gap_is_measured_along_its_length():
     V, F = right(0.2)
-    V = V + np.outer((V[:, 0] < 11) * 0.1 * (V[:, 1] - 5) / 4.7, [1, 0, 0])  # from 0.1 to 0.3
+    V = V + np.outer((V[:, 0] < 11) * 0.1 * (V[:, 1] - 5) / 5, [1, 0, 0])  # from 0.1 to 0.3
     measured = gaps([LEFT, (V, F)], clearance=0.2)
     assert measured.min == pytest.approx(0.1, abs=1e-3)
     facts = measured.facts(0.2)

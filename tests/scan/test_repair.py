@@ -103,7 +103,7 @@ def test_faces_that_disagree_are_turned_with_the_majority(maker):
     assert mesh_volume(result.V, result.F) == pytest.approx(mesh_volume(*mesh))
 
 
-@pytest.mark.parametrize("maker", [sphere, torus, genus2, creased_box, open_cup, half_sphere])
+@pytest.mark.parametrize("maker", [sphere, torus, genus2, creased_box, open_cup, cylinder, half_sphere])
 def test_inside_out_is_turned_and_reported(maker):
     mesh = maker(600)
     result = repair(*inside_out(mesh))
@@ -189,7 +189,7 @@ def test_cones_that_touch_in_a_point_come_apart():
     other = Shape(2 * top - cone.V, inside_out(cone).F)
     result = repair(*soup(joined(cone, other)))
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_vertices"] == 0  # their inner vertices were never merged
+    assert result.changes["non_manifold_vertices"] == 1
     mesh = joined(cone, other)
     k = int(np.argmax(cone.V[:, 2]))
     F = np.where(k + len(cone.V) == mesh.F, k, mesh.F)
@@ -258,7 +258,7 @@ def test_a_heap_of_crumbs_is_refused():
     apart = soup(Shape(V, F))
     centre = apart.V.reshape(-1, 3, 3).mean(axis=1, keepdims=True)
     shrunk = (centre + 0.5 * (apart.V.reshape(-1, 3, 3) - centre)).reshape(-1, 3)
-    with pytest.raises(InputError, match="heap of .* loose parts"):
+    with pytest.raises(InputError, match="loose parts, most of them"):
         repair(shrunk, apart.F)
 
 
@@ -273,6 +273,8 @@ def test_whatever_is_broken_comes_out_clean_or_as_a_sentence(mesh):
     try:
         result = repair(V, F)
     except InputError as error:
-        assert "non-orientable" in str(error)
+        sentence = str(error)
     else:
         assert_clean(result.V, result.F)
+        return
+    assert "non-orientable" in sentence

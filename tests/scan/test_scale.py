@@ -33,7 +33,7 @@ def test_the_largest_extent_follows_the_rule_that_is_named(extent, size, result,
 @pytest.mark.parametrize("offset", [0.0, 300.0, 5e5])
 @pytest.mark.parametrize("size", [None, 42.0])
 def test_the_matrix_leads_back_to_the_source(offset, size):
-    source = V + [offset, -offset, 1]
+    source = V + np.array([offset, -offset, 1])
     scaled = to_millimetres(source, size)
     back = np.column_stack([scaled.V, np.ones(len(V))]) @ scaled.to_source.T
     np.testing.assert_allclose(back[:, :3], source, atol=1e-9 * max(1, offset))
@@ -42,6 +42,6 @@ def test_the_matrix_leads_back_to_the_source(offset, size):
 def test_only_a_model_far_away_is_moved():
     assert to_millimetres(V + 200).facts["moved_mm"] is None
     np.testing.assert_array_equal(to_millimetres(V + 200).V, V + 200)
-    far = to_millimetres(V + [5000, 0, 0])
+    far = to_millimetres(V + np.array([5000, 0, 0]))
     assert far.facts["moved_mm"] == pytest.approx([-5000, 0, 0], abs=1)
     assert np.abs(far.V).max() < 100

@@ -114,6 +114,18 @@ def test_a_piece_that_touches_itself_at_a_point_stays_manifold():
     assert_sound(solid)
 
 
+def test_vertices_that_share_a_place_in_the_input_are_told_apart():
+    V, F = disc(600)
+    angle = np.arctan2(*V[F].mean(1)[:, 1::-1].T)
+    label = np.where(np.abs(np.sin(angle)) < np.sin(np.pi / 6 + 1e-3), 0, -1)
+    right = (label == 0) & (V[F].mean(1)[:, 0] > 0)
+    doubled = np.concatenate([V, V[:1]])  # the centre is vertex 0
+    G = np.where(right[:, None] & (F == 0), len(V), F)
+    (solid,), facts = solidify(doubled, G, label, np.tile([0.0, 0.0, -2.0], (len(doubled), 1)))
+    assert facts["pinches"] == 2
+    assert_sound(solid)
+
+
 def test_inner_vertices_that_fall_together_are_moved_apart():
     V, F = SHAPES["sphere"]
     D = inward(V, F)

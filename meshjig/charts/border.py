@@ -1,0 +1,35 @@
+"""The rim of a chart, in order."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.topology import border_halfedges, next_halfedge
+
+__all__ = ["border_loop"]
+
+Ints = NDArray[np.int64]
+
+
+def border_loop(F: Ints) -> Ints:
+    """Give the longest border loop of a mesh, its faces on the left.
+
+    Parameters
+    ----------
+    F : (m, 3) int64, manifold; a vertex lies on one border at most
+
+    Returns
+    -------
+    (b,) int64, vertices in order, the first not repeated; empty on a closed mesh
+    """
+    rim = border_halfedges(F)
+    start, end = F.ravel()[rim], F.ravel()[next_halfedge(rim)]
+    follows = dict(zip(start.tolist(), end.tolist(), strict=True))
+    longest: list[int] = []
+    while follows:
+        at, after = follows.popitem()
+        loop = [at]
+        while after in follows:
+            loop.append(after)
+            after = follows.pop(after)
+        longest = max(longest, loop, key=len)
+    return np.array(longest, np.int64)

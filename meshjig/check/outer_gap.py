@@ -1,0 +1,85 @@
+"""The gap between pieces on the outer surface, as it was cut."""
+
+from typing import Any
+
+import numpy as np
+
+from meshjig.topology import border_halfedges, next_halfedge
+from meshjig.types import Floats, Ints
+
+__all__ = ["outer_gap"]
+
+SPACING = 0.25  # of the clearance, between samples
+MOST_SAMPLES = 40_000
+REACH = 3.0  # clearances, within which a piece is a neighbour
+
+
+def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict[str, Any]:
+    """Measure the distance in space from the border of each piece to the nearest border of another.
+
+    The whole border is sampled, at up to 40,000 places; the distance of each sample is exact for the nearest of the edges near it.
+    Samples without another piece within three clearances, as on an open border, don't count.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, the cut mesh
+    piece_of_face : (m,) int64, negative for the gap
+    clearance : float, mm
+
+    Returns
+    -------
+    dict with min, p1, median in mm, and within_10pct, the share of samples within 10 % of the clearance;
+    all None where no two pieces are neighbours
+    """
+    from scipy.spatial import cKDTree
+
+    kept = piece_of_face >= 0
+    G, piece = F[kept], piece_of_face[kept]
+    a, b, owner = _borders(G, piece, len(V))
+    x, edge = _samples(V, a, b, SPACING * clearance)
+    stride = 1 + len(x) // MOST_SAMPLES
+    x, edge = x[::stride], edge[::stride]
+    near, near_edge = _samples(V, a, b, 2 * SPACING * clearance)
+    found: Ints = np.full(len(x), -1)
+    distance = np.full(len(x), np.inf)
+    tree = cKDTree(near)
+    k = min(32, len(near))
+    _, index = tree.query(x, k=k, distance_upper_bound=REACH * clearance)
+    for column in np.reshape(index, (len(x), k)).T:
+        real = np.flatnonzero(column < len(near))
+        other = near_edge[column[real]]
+        differs = owner[other] != owner[edge[real]]
+        real, other = real[differs], other[differs]
+        d = _to_segment(x[real], V[a[other]], V[b[other]])
+        closer = d < distance[real]
+        distance[real[closer]] = d[closer]
+        found[real[closer]] = other[closer]
+    d = distance[found >= 0]
+    if not len(d) or clearance <= 0:
+        return dict.fromkeys(("min", "p1", "median", "within_10pct"))
+    low, median = np.percentile(d, [1, 50])
+    within = float((np.abs(d / clearance - 1) <= 0.1).mean())
+    return {"min": float(d.min()), "p1": float(low), "median": float(median), "within_10pct": within}
+
+
+def _borders(F: Ints, piece: Ints, n: int) -> tuple[Ints, Ints, Ints]:
+    """Give the border edges of all pieces: both ends and the piece."""
+    separate, corner = np.unique(piece[:, None] * np.int64(n) + F, return_inverse=True)
+    h = border_halfedges(corner.reshape(-1, 3))
+    corners = separate[corner.ravel()] % n
+    return corners[h], corners[next_halfedge(h)], piece[h // 3]
+
+
+def _samples(V: Floats, a: Ints, b: Ints, spacing: float) -> tuple[Floats, Ints]:
+    """Spread points over edges, each at the middle of its stretch; and the edge of each."""
+    n = np.maximum(1, np.ceil(np.linalg.norm(V[a] - V[b], axis=1) / max(spacing, 1e-6))).astype(np.int64)
+    edge = np.repeat(np.arange(len(a)), n)
+    t = (np.arange(len(edge)) - np.repeat(np.cumsum(n) - n, n) + 0.5) / n[edge]
+    return V[a[edge]] + (V[b[edge]] - V[a[edge]]) * t[:, None], edge
+
+
+def _to_segment(x: Floats, a: Floats, b: Floats) -> Floats:
+    along = b - a
+    t = np.einsum("ij,ij->i", x - a, along) / np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
+    return np.linalg.norm(x - a - along * np.clip(t, 0, 1)[:, None], axis=1)
