@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from meshjig.errors import OptionError
 
@@ -26,22 +26,22 @@ class Options(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     pieces: int = Field(100, ge=1, le=100_000, description="number of pieces to aim for")
-    piece_size: float | None = Field(None, gt=0, description="edge of a piece, mm; takes the place of pieces")
-    size: float | None = Field(None, gt=0, description="largest extent of the model, mm")
-    faces: int | Literal["all"] = Field(100_000, description="working resolution in faces, or 'all'")
-    thickness: float = Field(None, gt=0, validate_default=False, description="thickness of the pieces, mm")  # type: ignore[arg-type]
-    clearance: float = Field(None, ge=0, validate_default=False, description="whole gap between two pieces, mm")  # type: ignore[arg-type]
-    min_neck: float = Field(None, ge=0, validate_default=False, description="least width of a knob's neck, mm")  # type: ignore[arg-type]
+    piece_size: FiniteFloat | None = Field(None, gt=0, description="edge of a piece, mm; takes the place of pieces")
+    size: FiniteFloat | None = Field(None, gt=0, description="largest extent of the model, mm")
+    faces: Annotated[int, Field(ge=100)] | Literal["all"] = Field(100_000, description="working resolution in faces, or 'all'")
+    thickness: FiniteFloat = Field(None, gt=0, validate_default=False, description="thickness of the pieces, mm")  # type: ignore[arg-type]
+    clearance: FiniteFloat = Field(None, ge=0, validate_default=False, description="whole gap between two pieces, mm")  # type: ignore[arg-type]
+    min_neck: FiniteFloat = Field(None, ge=0, validate_default=False, description="least width of a knob's neck, mm")  # type: ignore[arg-type]
     clearance_method: Literal["stretch", "domain"] = Field("stretch", description="how the gap is laid out")
     process: Literal["fdm", "sla", "polyjet"] = Field("fdm", description="printing process, for defaults")
     layout: Literal["tiles"] = Field("tiles", description="how the surface is divided")
     tile: Literal["classic", "rectangular"] = Field("classic", description="shape of the knobs")
     charts: Literal["auto", "lscm", "arap", "slim", "xatlas"] = Field("auto", description="how charts are made")
-    stitch: float = Field(0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam")
+    stitch: FiniteFloat = Field(0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam")
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     seed: int = Field(0, ge=0, description="seed of everything random")
     format: tuple[Literal["stl", "3mf", "obj", "glb"], ...] = Field(
-        ("stl", "3mf"), description="file formats to write, separated by commas"
+        ("stl", "3mf"), min_length=1, description="file formats to write, separated by commas"
     )
     curves: bool = Field(False, description="also write the cut curves: SVG in the plane, OBJ and DXF in space")
 
@@ -56,12 +56,6 @@ class Options(BaseModel):
         process = given.get("process", "fdm")
         preset = PROCESSES.get(process, {}) if isinstance(process, str) else {}
         return {**preset, **given}
-
-    @model_validator(mode="after")
-    def _agree(self) -> Options:
-        if isinstance(self.faces, int) and self.faces < 100:
-            raise ValueError("faces: at least 100, or 'all'")
-        return self
 
     @classmethod
     def of(cls, **given: Any) -> Options:

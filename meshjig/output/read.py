@@ -13,11 +13,13 @@ import numpy as np
 from meshjig.check.arrays import sound_piece, weld
 from meshjig.errors import InputError
 from meshjig.output.read_3mf import read_3mf
+from meshjig.output.read_parts import is_own_obj, read_glb, read_own_obj
 from meshjig.types import Floats, Ints
 
 __all__ = ["read_pieces"]
 
-MESHES = (".stl", ".obj", ".ply")
+MESHES = (".stl", ".obj", ".ply")  # a piece a file, but for an OBJ that meshjig wrote
+PACKAGES = (".3mf", ".glb")
 NamedPiece = tuple[str, Floats, Ints]
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -28,14 +30,14 @@ def read_pieces(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
     Parameters
     ----------
     paths : path, or several
-        A folder that meshjig made (its pieces/, else its puzzle.3mf), any folder of STL, OBJ or PLY
-        files, single files of these, or a 3MF. A mesh file is one piece; a 3MF holds one piece an
-        object, placed as its build says.
+        A folder that meshjig made (its pieces/, else its puzzle.3mf, .glb or .obj), any folder of
+        STL, OBJ or PLY files, single files of these, a 3MF or a GLB. A mesh file is one piece; a 3MF
+        or GLB holds one piece an object, in its place, and so does an OBJ that meshjig wrote.
 
     Returns
     -------
     list of (name, V, F)
-        V (n, 3) float64, in the unit of the file (mm for 3MF); F (m, 3) int64. Vertices with equal
+        V (n, 3) float64, in the unit of the file (mm for 3MF and GLB); F (m, 3) int64. Vertices with equal
         coordinates are one. Files of a folder come in natural order: piece_2 before piece_10.
 
     Raises
@@ -48,8 +50,20 @@ def read_pieces(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
         raise InputError("no files to read", hint="name a folder of pieces, mesh files or a 3MF")
     pieces: list[NamedPiece] = []
     for path in (file for item in given for file in _files(Path(item))):
-        pieces += read_3mf(path) if path.suffix.lower() == ".3mf" else [_read_mesh(path)]
+        pieces += _read(path)
     return pieces
+
+
+def _read(path: Path) -> list[NamedPiece]:
+    """Read the pieces of one file."""
+    try:
+        if path.suffix.lower() == ".3mf":
+            return read_3mf(path)
+        if path.suffix.lower() == ".glb":
+            return read_glb(path)
+        return read_own_obj(path) if is_own_obj(path) else [_read_mesh(path)]
+    except OSError as error:
+        raise InputError(f"{path} can't be read ({(error.strerror or str(error)).lower()})") from None
 
 
 def _files(path: Path) -> list[Path]:
@@ -57,22 +71,18 @@ def _files(path: Path) -> list[Path]:
     if not path.exists():
         raise InputError(f"{path} does not exist")
     if not path.is_dir():
-        if path.suffix.lower() not in (*MESHES, ".3mf"):
+        if path.suffix.lower() not in (*MESHES, *PACKAGES):
             raise InputError(
-                f"{path} is of an unknown format", hint="pieces are read from STL, OBJ, PLY and 3MF"
+                f"{path} is of an unknown format", hint="pieces are read from STL, OBJ, PLY, 3MF and GLB"
             )
         return [path]
-    for folder in (path / "pieces", path):
-        found = _meshes(folder)
+    whole = [[p] for p in (path / f"puzzle{suffix}" for suffix in (".3mf", ".glb", ".obj")) if p.is_file()]
+    lone = [p for p in path.iterdir() if p.suffix.lower() in PACKAGES]
+    for found in (_meshes(path / "pieces"), *whole, _meshes(path), lone if len(lone) == 1 else []):
         if found:
             return found
-        if folder == path / "pieces" and (path / "puzzle.3mf").is_file():
-            return [path / "puzzle.3mf"]
-    packages = sorted(p for p in path.iterdir() if p.suffix.lower() == ".3mf")
-    if len(packages) == 1:
-        return packages
     raise InputError(
-        f"no pieces found in {path}", hint="a folder of STL, OBJ or PLY files, or one 3MF, is needed"
+        f"no pieces found in {path}", hint="name a folder of STL, OBJ or PLY files, or one 3MF or GLB"
     )
 
 
@@ -104,10 +114,7 @@ def _read_mesh(path: Path) -> NamedPiece:
 
 def _binary_stl(path: Path) -> tuple[Any, Any]:
     """Give a soup of corners, or (None, None) where the file is no binary STL."""
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path} can't be read ({error.strerror or error})") from None
+    data = path.read_bytes()
     if len(data) == 0:
         raise InputError(f"{path} is empty")
     n = int.from_bytes(data[80:84], "little") if len(data) >= 84 else 0

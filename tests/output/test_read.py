@@ -9,8 +9,11 @@ import trimesh
 from meshjig.check import is_closed
 from meshjig.errors import InputError
 from meshjig.measure import mesh_volume
+from meshjig.output.glb import write_glb
+from meshjig.output.obj import write_obj
+from meshjig.output.piece import Piece
 from meshjig.output.read import read_pieces
-from tests.meshes import sphere, torus
+from tests.meshes import moved, sphere, torus
 
 BALL = sphere(300)
 
@@ -87,6 +90,28 @@ def test_a_puzzle_folder_is_read_from_its_pieces_else_from_its_package(tmp_path)
     assert [name for name, _, _ in read_pieces(tmp_path)] == ["piece_001"]
 
 
+@pytest.mark.parametrize("format", ["obj", "glb"])
+def test_a_puzzle_saved_as_one_file_comes_back_in_pieces(tmp_path, format):
+    pieces = [
+        Piece("piece_001", *BALL, (0.1, 0.2, 0.3)),
+        Piece("piece_002", *moved(torus(200), [0, 0, 200]), (0.3, 0.2, 0.1)),
+    ]
+    {"obj": write_obj, "glb": write_glb}[format](tmp_path / f"puzzle.{format}", pieces)
+    for (name, V, F), piece in zip(read_pieces(tmp_path), pieces, strict=True):
+        assert name == piece.name
+        assert is_closed(F)
+        np.testing.assert_allclose(V[F], piece.V[piece.F], rtol=1e-6, atol=1e-4)
+
+
+def test_groups_of_a_strange_obj_are_one_piece(tmp_path):
+    path = write(tmp_path / "ball.obj", BALL)
+    lines = path.read_text().splitlines()
+    half = max(i for i, line in enumerate(lines) if line.startswith("f ")) - 50
+    path.write_text("\n".join([*lines[:half], "g rest", *lines[half:]]))
+    [(_, _, F)] = read_pieces(path)
+    assert is_closed(F)
+
+
 def test_several_paths_are_read_in_their_order(tmp_path):
     paths = [write(tmp_path / "b.ply", BALL), write(tmp_path / "a.stl", torus(200))]
     assert [name for name, _, _ in read_pieces(paths)] == ["b", "a"]
@@ -130,6 +155,9 @@ def test_a_package_in_inches_is_read_in_mm(tmp_path):
         ("a.obj", b"", "no faces|can't be read as OBJ"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n", "can't be read as PLY"),
         ("a.3mf", b"PK\x03\x04 no package", "can't be read as 3MF"),
+        ("a.glb", b"glTF", "can't be read as GLB"),
+        ("a.obj", b"# meshjig\nv 0 0 0\ng p\nf 1 1\n", "damaged"),
+        ("a.obj", b"# meshjig\nv 0 0 0\ng p\nf 1 1 9\n", "do not exist"),
         ("a.docx", b"text", "unknown format"),
     ],
 )
