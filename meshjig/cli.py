@@ -187,7 +187,9 @@ def _sentences(verbose: bool, quiet: bool) -> Iterator[None]:
         if verbose:
             logging.getLogger("meshjig").exception("unexpected failure")
         reason = f"{type(error).__name__}: {error}".splitlines()[0]
-        _say(f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where")
+        _say(
+            f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where"
+        )
         raise typer.Exit(FAILED) from None
 
 

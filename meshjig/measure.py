@@ -10,6 +10,7 @@ __all__ = [
     "interpolate",
     "mesh_volume",
     "singular_values",
+    "sums",
     "unit",
     "vertex_normals",
 ]
@@ -56,6 +57,11 @@ def mesh_volume(V: Floats, F: Ints) -> float:
 def interpolate(X: Floats, F: Ints, face: Ints, bary: Floats) -> Floats:
     """Carry per-vertex values X (n, d) to points (face, bary (k, 3)); (k, d)."""
     return np.einsum("kj,kjd->kd", bary, X[F[face]])
+
+
+def sums(where: Ints, values: Floats, n: int) -> Floats:
+    """Add up values (k,) by where they belong (k,), one of n places; (n,)."""
+    return np.bincount(where, values, n).astype(np.float64)
 
 
 def barycentric(V: Floats, F: Ints, face: Ints, points: Floats) -> Floats:

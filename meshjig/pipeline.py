@@ -95,7 +95,19 @@ def make_puzzle(
         for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
     ]
     report = assemble_report(
-        options, scan, atlas, cut, stitching, piece_of_face, locks, verdict, solids, thickness | facts, gap, discarded, stages
+        options,
+        scan,
+        atlas,
+        cut,
+        stitching,
+        piece_of_face,
+        locks,
+        verdict,
+        solids,
+        thickness | facts,
+        gap,
+        discarded,
+        stages,
     )
     return Puzzle(pieces, report, _curves(cut, outlines, piece_of_face) if options.curves else Curves())
 
@@ -127,9 +139,8 @@ def _refuse_too_small_tiles(tile: float, area: float, options: Options) -> None:
 def _cut_into_pieces(
     atlas: Atlas, options: Options, stages: Stages
 ) -> tuple[Outlines, Knobs, CutMesh, Stitching]:
-    """Tile, cut and stitch; once more with other tiles when the number of pieces is too far off."""
-    wanted = options.pieces
-    best = None
+    """Tile, cut and stitch; again with other tiles when the number of pieces is too far off."""
+    wanted, tried = options.pieces, []
     for _ in range(TRIES):
         with stages("tiling"):
             choice = choose_tiles(atlas, wanted, options.stitch, options.piece_size)
@@ -145,15 +156,13 @@ def _cut_into_pieces(
             cut = overlay(atlas, outlines)
         with stages("stitch"):
             stitching = stitch(region_graph(cut), options.stitch, choice.size**2)
+        tried.append((outlines, knobs, cut, stitching))
         n = stitching.n_pieces
-        miss = abs(n - options.pieces) / options.pieces
         log.info("tiles of %.2f mm give %d pieces (%d expected)", choice.size, n, choice.expected)
-        if best is None or miss < best[0]:
-            best = miss, (outlines, knobs, cut, stitching)
-        if options.piece_size or miss <= WITHIN:
+        if options.piece_size or abs(n - options.pieces) <= WITHIN * options.pieces:
             break
         wanted = max(1, round(wanted * options.pieces / n))
-    return best[1]
+    return min(tried, key=lambda made: abs(made[3].n_pieces - options.pieces))
 
 
 def _cut_gap(
@@ -172,4 +181,3 @@ def _cut_gap(
 def _curves(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> Curves:
     plane, space = cut_curves(cut, outlines)
     return Curves(plane, space)
-

@@ -28,6 +28,7 @@ class Stages:
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
+        """Run a stage; laps of the same name add up."""
         if self.progress:
             self.progress(name, "start")
         start = time.perf_counter()

@@ -48,7 +48,9 @@ class Puzzle:
     report: dict[str, Any]
     curves: Curves = field(default_factory=Curves)
 
-    def save(self, directory: str | Path, formats: tuple[str, ...] | None = None, *, preview: bool = True) -> Path:
+    def save(
+        self, directory: str | Path, formats: tuple[str, ...] | None = None, *, preview: bool = True
+    ) -> Path:
         """Write the puzzle to a folder.
 
         An existing folder is replaced only when meshjig made it, and only once all files are written.

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshjig.check import Verdict
 from meshjig.check.interlock import Interlock
-from meshjig.measure import face_areas, mesh_volume
+from meshjig.measure import face_areas, mesh_volume, sums
 from meshjig.options import Options
 from meshjig.progress import Stages, peak_memory_mb
 from meshjig.types import Atlas, CutMesh, Floats, Ints, Scan, Stitching
@@ -54,7 +54,7 @@ def assemble_report(
     """
     n = stitching.n_pieces
     areas = face_areas(cut.V, cut.F)
-    area = np.bincount(piece_of_face, areas, n)
+    area = sums(piece_of_face, areas, n)
     mesh = atlas.mesh
     surface = face_areas(mesh.V, mesh.F).sum()
     checks = {
@@ -85,7 +85,9 @@ def assemble_report(
     }
 
 
-def _pieces(n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock) -> list[dict[str, Any]]:
+def _pieces(
+    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock
+) -> list[dict[str, Any]]:
     neighbours: list[list[int]] = [[] for _ in range(n)]
     knobs = np.zeros(n, np.int64)
     for (a, b), count in zip(locks.pairs.tolist(), locks.knobs_of_pair.tolist(), strict=True):

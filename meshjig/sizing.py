@@ -1,12 +1,11 @@
 """How large a tile must be for the puzzle to have the wanted number of pieces."""
 
 from dataclasses import dataclass
-from itertools import product
 from typing import Any
 
 import numpy as np
 
-from meshjig.measure import face_areas
+from meshjig.measure import face_areas, unit
 from meshjig.stitch import stitch, sum_borders
 from meshjig.tiling import Grid, chart_polygons, place_grid
 from meshjig.topology import edges, next_halfedge
@@ -14,7 +13,7 @@ from meshjig.types import Atlas, Floats, Ints, RegionGraph
 
 __all__ = ["TileChoice", "choose_tiles"]
 
-_SHIFTS = tuple(product((0.0, 0.5), repeat=2))
+_SHIFTS = ((0.0, 0.0), (0.0, 0.5), (0.5, 0.0), (0.5, 0.5))
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ def choose_tiles(atlas: Atlas, pieces: int, share: float, size: float | None = N
     """
     trial = _Trial(atlas, share)
     if size is not None:
-        best = min((trial.count(size, shift) + (shift,) for shift in _SHIFTS), key=lambda c: c[1])
+        best = min(((*trial.count(size, shift), shift) for shift in _SHIFTS), key=lambda c: c[1])
         return TileChoice(size, best[2], best[0])
     found: list[tuple[float, float, float, tuple[float, float], int]] = []
     s = float(np.sqrt(face_areas(atlas.mesh.V, atlas.mesh.F).sum() / pieces))
@@ -107,7 +106,7 @@ class _Trial:
         xy = shapely.get_coordinates(shapely.line_interpolate_point(line, 0.5, normalized=True))
         first = shapely.get_coordinates(shapely.get_point(line, 0))
         along = xy - first
-        across = 1e-3 * np.stack([-along[:, 1], along[:, 0]], 1) / (np.linalg.norm(along, axis=1)[:, None] + 1e-12)
+        across = 1e-3 * unit(np.stack([-along[:, 1], along[:, 0]], 1))
         here = _nearest(tree, np.vstack([xy + across, self.here]))
         there = _nearest(tree, np.vstack([xy - across, self.there]))
         length = np.concatenate([shapely.length(line), self.seam_length])
@@ -140,5 +139,3 @@ def _nearest(tree: Any, xy: Floats) -> Ints:
 
     found: Ints = tree.nearest(shapely.points(xy)).astype(np.int64)
     return found
-
-

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.measure import face_areas
+from meshjig.measure import face_areas, sums
 from meshjig.topology import edges
-from meshjig.types import CutMesh, Floats, Ints, RegionGraph, Stitching
+from meshjig.types import Bools, CutMesh, Floats, Ints, RegionGraph, Stitching
 
 __all__ = ["region_graph", "stitch"]
 
@@ -26,11 +26,11 @@ def region_graph(cut: CutMesh) -> RegionGraph:
     length = np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1)
     along_cut = np.isin(_edge_keys(ends, len(cut.V)), _edge_keys(np.sort(cut.cuts, axis=1), len(cut.V)))
     n = int(cut.region.max(initial=-1)) + 1
-    area = np.bincount(cut.region, face_areas(cut.V, cut.F), n)
+    area = sums(cut.region, face_areas(cut.V, cut.F), n)
     return sum_borders(area, here, there, length, ~along_cut)
 
 
-def sum_borders(area: Floats, here: Ints, there: Ints, length: Floats, seam: np.ndarray) -> RegionGraph:
+def sum_borders(area: Floats, here: Ints, there: Ints, length: Floats, seam: Bools) -> RegionGraph:
     """Add up stretches of border between the same two regions.
 
     Parameters
@@ -44,7 +44,7 @@ def sum_borders(area: Floats, here: Ints, there: Ints, length: Floats, seam: np.
     key = (low * len(area) + high) * 2 + seam
     unique, inverse = np.unique(key, return_inverse=True)
     pairs = np.stack([unique // 2 // len(area), unique // 2 % len(area)], 1)
-    total = np.bincount(inverse, length, len(unique))
+    total = sums(inverse, length, len(unique))
     return RegionGraph(area, pairs.astype(np.int64), total, unique % 2 == 1)
 
 

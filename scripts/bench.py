@@ -21,7 +21,9 @@ NOT_MAKING = ("check", "preview")  # the peer neither judges nor draws
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--corpus", type=Path, help="folder with stanford-bunny.obj and nefertiti.obj")
     parser.add_argument("--peer", type=Path, help="script of the projected-cutter route")
     parser.add_argument("--runs", type=int, default=3, help="runs of each, in turn; the median is quoted")
@@ -52,11 +54,17 @@ def _against_peer(mesh: Path, peer: Path, runs: int) -> None:
     theirs.sort(key=lambda r: r["wall_s"])
     mine, other = ours[len(ours) // 2], theirs[len(theirs) // 2]
     rest = mine["total"] - mine["stages"]["charts"]
-    print(f"\n{mesh.name}: {mine['pieces']} pieces of ours, {other['pieces']} of the peer's; median of {runs}")
+    print(
+        f"\n{mesh.name}: {mine['pieces']} pieces of ours, {other['pieces']} of the peer's; median of {runs}"
+    )
     for stage, seconds in mine["stages"].items():
         print(f"  {stage:16} {seconds:7.2f} s")
-    print(f"  {'total':16} {mine['total']:7.2f} s   peer {other['wall_s']:.2f} s   ratio {mine['total'] / other['wall_s']:.2f}")
-    print(f"  {'without charts':16} {rest:7.2f} s   peer {other['wall_s']:.2f} s   ratio {rest / other['wall_s']:.2f}")
+    print(
+        f"  {'total':16} {mine['total']:7.2f} s   peer {other['wall_s']:.2f} s   ratio {mine['total'] / other['wall_s']:.2f}"
+    )
+    print(
+        f"  {'without charts':16} {rest:7.2f} s   peer {other['wall_s']:.2f} s   ratio {rest / other['wall_s']:.2f}"
+    )
     print(f"  beside that: " + ", ".join(f"{k} {v:.2f} s" for k, v in mine["beside"].items()), flush=True)
 
 
@@ -72,7 +80,10 @@ def _write_clean(mesh: Path, clean: Path) -> None:
 def _ours(clean: Path, out: Path) -> dict:
     start = time.perf_counter()
     said = subprocess.run(
-        [sys.executable, __file__, "--worker", str(clean), str(out)], capture_output=True, text=True, check=True
+        [sys.executable, __file__, "--worker", str(clean), str(out)],
+        capture_output=True,
+        text=True,
+        check=True,
     )
     wall = time.perf_counter() - start
     row = json.loads(said.stdout)
@@ -80,7 +91,13 @@ def _ours(clean: Path, out: Path) -> dict:
     beside = {k: v for k, v in row["stages"].items() if k in NOT_MAKING}
     total = wall - sum(beside.values())
     stages["imports, the rest"] = total - sum(stages.values())
-    return {"pieces": row["pieces"], "stages": stages, "beside": beside, "total": total, "memory": row["memory"]}
+    return {
+        "pieces": row["pieces"],
+        "stages": stages,
+        "beside": beside,
+        "total": total,
+        "memory": row["memory"],
+    }
 
 
 def _theirs(clean: Path, peer: Path, out: Path) -> dict:

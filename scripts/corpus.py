@@ -19,7 +19,9 @@ SUFFIXES = {".obj", ".off", ".stl", ".ply", ".glb", ".3mf"}
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--corpus", type=Path, required=True, help="folder of meshes")
     parser.add_argument("--out", type=Path, default=Path("corpus.json"))
     parser.add_argument("--against", type=Path, help="an older report to compare with")
@@ -66,7 +68,9 @@ def _run(mesh: Path, target: Path, options: list[str], slicer: bool) -> dict:
         return row
     report = json.loads((target / "report.json").read_text(encoding="utf-8"))
     n = len(report["pieces"])
-    row |= {"pieces": n} | {k: report[k] for k in ("charts", "checks", "timings_s", "peak_memory_mb", "failures")}
+    row |= {"pieces": n} | {
+        k: report[k] for k in ("charts", "checks", "timings_s", "peak_memory_mb", "failures")
+    }
     row["strict_3mf"] = _strict_3mf(target / "puzzle.3mf")
     if slicer:
         row["not_manifold"] = [p.name for p in sorted(target.rglob("*")) if not _slicer_agrees(p)]
@@ -78,7 +82,9 @@ def _slicer_agrees(path: Path) -> bool:
     if path.suffix not in {".stl", ".3mf"}:
         return True
     said = subprocess.run(["prusa-slicer", "--info", str(path)], capture_output=True, text=True, check=False)
-    verdicts = [line.split("=")[1].strip() for line in said.stdout.splitlines() if line.startswith("manifold")]
+    verdicts = [
+        line.split("=")[1].strip() for line in said.stdout.splitlines() if line.startswith("manifold")
+    ]
     return bool(verdicts) and set(verdicts) == {"yes"}
 
 

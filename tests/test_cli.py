@@ -14,7 +14,11 @@ from tests.meshes import closed_cylinder, inside_out, moebius, sphere, torus
 
 def run(*words, cwd=None):
     return subprocess.run(
-        [sys.executable, "-m", "meshjig", *map(str, words)], capture_output=True, text=True, cwd=cwd, check=False
+        [sys.executable, "-m", "meshjig", *map(str, words)],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        check=False,
     )
 
 
@@ -32,7 +36,9 @@ def ball(tmp_path_factory):
 def puzzle(ball, tmp_path_factory):
     """A puzzle of a sphere, in every format, and what the command said."""
     folder = tmp_path_factory.mktemp("out") / "ball-jigsaw"
-    said = run("make", ball, "-o", folder, "--pieces", 20, "--format", "stl,3mf,obj,glb", "--curves", "--json")
+    said = run(
+        "make", ball, "-o", folder, "--pieces", 20, "--format", "stl,3mf,obj,glb", "--curves", "--json"
+    )
     return folder, said
 
 
@@ -43,7 +49,9 @@ def test_make_writes_what_it_says(puzzle):
     n = len(report["pieces"])
     assert n == pytest.approx(20, abs=2)
     assert report == json.loads((folder / "report.json").read_text())
-    assert [p.name for p in sorted((folder / "pieces").iterdir())] == [f"piece_{i + 1:03d}.stl" for i in range(n)]
+    assert [p.name for p in sorted((folder / "pieces").iterdir())] == [
+        f"piece_{i + 1:03d}.stl" for i in range(n)
+    ]
     for name in ("puzzle.3mf", "puzzle.obj", "puzzle.mtl", "puzzle.glb", "preview.png", "curves/cuts.svg"):
         assert (folder / name).stat().st_size > 500, name
     assert f"{n} pieces" in said.stderr
@@ -108,7 +116,9 @@ def test_equal_input_gives_equal_files(ball, tmp_path):
 
 def test_flags_win_over_the_config_and_the_config_over_presets(ball, tmp_path):
     (tmp_path / "shop.toml").write_text('pieces = 10\nthickness = 3.0\nclearance-method = "domain"\n')
-    said = run("make", ball, "-o", tmp_path / "out", "--config", tmp_path / "shop.toml", "--pieces", 8, "--json")
+    said = run(
+        "make", ball, "-o", tmp_path / "out", "--config", tmp_path / "shop.toml", "--pieces", 8, "--json"
+    )
     options = json.loads(said.stdout)["options"]
     assert (options["pieces"], options["thickness"], options["clearance_method"]) == (8, 3.0, "domain")
 
@@ -178,7 +188,9 @@ def test_the_largest_number_of_pieces_that_is_said_to_work_works(tmp_path):
     mesh = saved(tmp_path / "can.ply", closed_cylinder(500))
     said = run("make", mesh, "-o", tmp_path / "out", "--size", 12, "--thickness", 0.4, "--pieces", 5000)
     most = int(said.stderr.split("at most ")[1].split()[0])
-    assert run("make", mesh, "-o", tmp_path / "out", "--size", 12, "--thickness", 0.4, "--pieces", most).returncode in (0, 3)
+    assert run(
+        "make", mesh, "-o", tmp_path / "out", "--size", 12, "--thickness", 0.4, "--pieces", most
+    ).returncode in (0, 3)
 
 
 def test_a_folder_of_somebody_else_is_left_alone(ball, tmp_path):
@@ -197,7 +209,9 @@ def test_a_puzzle_is_replaced(puzzle, tmp_path, ball):
     assert report["options"]["pieces"] == 12
 
 
-@pytest.mark.parametrize("flags", [["--pieces", "0"], ["--tile", "round"], ["--nonsense"], ["--config", "none.toml"]])
+@pytest.mark.parametrize(
+    "flags", [["--pieces", "0"], ["--tile", "round"], ["--nonsense"], ["--config", "none.toml"]]
+)
 def test_wrong_usage_exits_with_2(flags, ball):
     said = run("make", ball, *flags)
     assert said.returncode == 2

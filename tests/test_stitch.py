@@ -72,6 +72,11 @@ def test_a_tiny_island_stays():
 
 def test_stretches_of_border_add_up_by_pair_and_kind():
     here, there = np.array([0, 1, 1, 0]), np.array([1, 0, 2, 1])
-    summed = sum_borders(np.ones(3), here, there, np.array([1.0, 2, 4, 8]), np.array([True, True, False, False]))
-    found = {(a, b, bool(s)): x for (a, b), s, x in zip(summed.pairs.tolist(), summed.seam, summed.length, strict=True)}
+    summed = sum_borders(
+        np.ones(3), here, there, np.array([1.0, 2, 4, 8]), np.array([True, True, False, False])
+    )
+    found = {
+        (a, b, bool(s)): x
+        for (a, b), s, x in zip(summed.pairs.tolist(), summed.seam, summed.length, strict=True)
+    }
     assert found == {(0, 1, True): 3.0, (0, 1, False): 8.0, (1, 2, False): 4.0}

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.dissolve import dissolve
 from meshjig.charts.dual import dual
 from meshjig.charts.judge import Judge
 from meshjig.charts.merge import merge
@@ -17,7 +18,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-def segment(V: Floats, F: Ints, n_patches: int = 60, seed: int = 0, rounds: int = 2) -> Ints:
+def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 2) -> Ints:
     """Label each face of one component with its chart.
 
     Parameters
@@ -43,5 +44,5 @@ def segment(V: Floats, F: Ints, n_patches: int = 60, seed: int = 0, rounds: int 
         smoother = merge(graph, split(V, F, straight, judge.accepts, seed), judge)
         if smoother.max() > label.max():
             break
-        label = smoother
+        label = dissolve(V, F, graph, smoother, judge, seed)
     return label

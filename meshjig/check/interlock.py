@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshjig.measure import sums
 from meshjig.topology import edges
 from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
 
@@ -54,9 +55,7 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
     ends, sides = e.E[e.edge_of_halfedge[h[border]]], sides[border]
     n_pieces = np.int64(piece_of_face.max(initial=0)) + 1
     keys, pair_of_edge = np.unique(sides[:, 0] * n_pieces + sides[:, 1], return_inverse=True)
-    length = np.bincount(
-        pair_of_edge, np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1), len(keys)
-    )
+    length = sums(pair_of_edge, np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1), len(keys))
 
     pair_of_cut = _lookup(ends[:, 0] * n + ends[:, 1], pair_of_edge, cut.cuts.min(1) * n + cut.cuts.max(1))
     whole, knob_pair = _whole_knobs(cut, knobs, pair_of_cut)

@@ -49,7 +49,7 @@ def judge(
     """Judge the finished pieces of a puzzle, whatever made them.
 
     The promises: ``closed`` and oriented, also as STL; ``one_component``; ``positive_volume``;
-    ``self_intersections`` none; ``overlap_mm3`` of two pieces at most 0.001; ``gap_mm`` of two
+    ``self_intersections`` none; ``overlap_mm3`` of two pieces at most 0.001, and known; ``gap_mm`` of two
     neighbours at least 0.95 of the clearance; ``thickness_mm``, the median, from 0.8 to 1.25 of
     the thickness. The last two hold only where clearance and thickness are known.
 
@@ -91,7 +91,8 @@ def judge(
     solids = bodies(meshes)
     low, high = boxes(meshes)
     shared = overlaps_of_bodies(solids, close_boxes(low, high, 0.0).tolist())
-    hold("overlap_mm3", (k for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3 for k in (i, j)))
+    sharing = [k for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3 for k in (i, j)]
+    hold("overlap_mm3", [*sharing, *shared.unmeasured])
     gap = _gap(meshes, solids, pairs, clearance, close_boxes(low, high, default_reach(clearance)))
     if clearance:
         hold(

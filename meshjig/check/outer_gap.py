@@ -17,7 +17,7 @@ REACH = 3.0  # clearances, within which a piece is a neighbour
 def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict[str, Any]:
     """Measure the distance in space from the border of each piece to the nearest border of another.
 
-    The whole border is sampled, at up to 40,000 places; the distance of each sample is exact for the nearest of the edges near it.
+    The border is sampled at up to 40,000 places; the distance of each is exact for the edges near it.
     Samples without another piece within three clearances, as on an open border, don't count.
 
     Parameters

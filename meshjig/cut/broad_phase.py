@@ -81,7 +81,7 @@ def near(cells: Cells, around: Boxes) -> Bools:
     return (flat[above + right] - flat[above + left] - flat[below + right] + flat[below + left]) > 0
 
 
-def box_pairs(A: Boxes, B: Boxes, cells: Cells) -> tuple[Ints, Ints]:
+def box_pairs(A: Boxes, B: Boxes) -> tuple[Ints, Ints]:
     """List all pairs of boxes that share a cell, each once.
 
     Returns

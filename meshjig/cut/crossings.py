@@ -41,7 +41,7 @@ def cross(sheet: Sheet, graph: Graph, cells: Cells, around: Boxes) -> Crossings:
         np.minimum(bounds.low[first], bounds.low[second]), np.maximum(bounds.low[first], bounds.low[second])
     )
     close = np.flatnonzero(near(cells, sides))
-    side, segment = box_pairs(sides.take(close), around, cells)
+    side, segment = box_pairs(sides.take(close), around)
     side = close[side]
 
     p, q, A, B = sheet.U[first[side]], sheet.U[second[side]], a[segment], b[segment]

@@ -12,6 +12,7 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["APART_MM", "EdgeNodes", "edge_nodes"]
 
 APART_MM = 2e-4  # the least distance between vertices on an edge, where the edge is long enough
+MEET_MM = 1e-3  # cuts from both sides of a seam meet when they end this close
 TIE = 1e-11  # below this difference, the order on a side is decided with exact numbers
 DIGITS = 140  # binary digits at which two fractions of 63-bit numbers differ, if they do
 
@@ -81,7 +82,7 @@ def _exact_order(sheet: Sheet, graph: Graph, crossings: Crossings, order: Ints, 
 def _meets_over_seam(side: Ints, edge: Ints, place: Floats) -> Bools:
     """Mark sorted crossings that share the node before them: two sides of one edge, one place."""
     close = np.zeros(len(side), bool)
-    close[1:] = (edge[1:] == edge[:-1]) & (side[1:] != side[:-1]) & (place[1:] - place[:-1] < APART_MM)
+    close[1:] = (edge[1:] == edge[:-1]) & (side[1:] != side[:-1]) & (place[1:] - place[:-1] < MEET_MM)
     close[1:] &= ~close[:-1]
     return close
 

@@ -74,7 +74,9 @@ def without_islands(sheet: Sheet, graph: Graph) -> tuple[Sheet, Origin, Graph, T
             break
         part = split
     if len(lonely):
-        graph = _less(graph, np.unique(seen.links.segment[lonely]))
+        kept = np.ones(len(graph.segments), bool)
+        kept[seen.links.segment[lonely]] = False
+        graph = graph.take(kept)
 
     whole = np.setdiff1d(np.arange(m), faces, assume_unique=True)
     merged = make_sheet(
@@ -106,17 +108,6 @@ def _island_links(seen: Trace) -> Ints:
     graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(n, n))
     _, label = connected_components(graph, directed=False)
     return inner[label[start[inner]] != label[0]]
-
-
-def _less(graph: Graph, dropped: Ints) -> Graph:
-    keep = np.ones(len(graph.segments), bool)
-    keep[dropped] = False
-    return graph._replace(
-        segments=graph.segments[keep],
-        left=graph.left[keep],
-        right=graph.right[keep],
-        source=graph.source[keep],
-    )
 
 
 def _split(part: _Part, graph: Graph, seen: Trace, lonely: Ints) -> _Part | None:

@@ -25,7 +25,7 @@ class Links(NamedTuple):
     end: Ints  # (l,), the stop it ends at
     face: Ints  # (l,)
     segment: Ints  # (l,)
-    param: Floats  # (l, 2), start and end on the segment, 0 to 1
+    param: Floats  # (l, 2), start and end on the segment of the outlines, 0 to 1
     mirrored: Bools  # (l,), whether the face lies face down in the plane
 
 
@@ -65,6 +65,8 @@ def follow(sheet: Sheet, graph: Graph, crossings: Crossings, landings: Landings)
         ],
         1,
     )
+    whole = graph.span[segment]
+    param = whole[:, :1] + param * (whole[:, 1:] - whole[:, :1])
     return Links(start, end, face, segment, param, mirrored)
 
 

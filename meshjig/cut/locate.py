@@ -29,7 +29,7 @@ def locate(sheet: Sheet, graph: Graph, cells: Cells) -> Landings:
     a, b, c = (corner[sheet.F_uv[:, k]] for k in range(3))
     faces = Boxes(np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
     close = np.flatnonzero(near(cells, faces))
-    point, face = box_pairs(boxes(cells.size, graph.points[used_points]), faces.take(close), cells)
+    point, face = box_pairs(boxes(cells.size, graph.points[used_points]), faces.take(close))
     point, face = used_points[point], close[face]
     left = None
     for k in range(3):

@@ -4,9 +4,8 @@ from collections import Counter
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.cut.noding import noded
 from meshjig.errors import CutError
 from meshjig.types import Bools, Floats, Ints, Outlines
 
@@ -14,22 +13,36 @@ __all__ = ["FINEST", "Graph", "snap"]
 
 FINEST = 18  # the grid is never finer than 2^-18 mm
 LIMIT = 2**30  # orient() is exact below
-SHORT_MM = 0.0  # shorter segments are contracted: nothing printable is that small
+STEP = 32  # outlines keep to every 32nd line of the grid, 1.2e-4 mm apart: nothing printable is that small
 
 
 class Graph(NamedTuple):
-    """Outlines on the grid: no two points alike, no two segments alike, none without length."""
+    """Outlines on the grid: segments of some length that meet at shared points only."""
 
     points: Ints  # (n, 2)
     segments: Ints  # (k, 2)
     left: Ints  # (k,)
     right: Ints  # (k,)
-    source: Ints  # (k,), the number of the segment in the outlines
+    source: Ints  # (k,), the segment of the outlines that each is a part of
+    span: Floats  # (k, 2), which part of it: start and end, 0 to 1
     point: Ints  # (p,), where the points of the outlines went
+
+    def take(self, kept: Bools) -> "Graph":
+        """Give the graph with some of its segments only."""
+        return self._replace(
+            segments=self.segments[kept],
+            left=self.left[kept],
+            right=self.right[kept],
+            source=self.source[kept],
+            span=self.span[kept],
+        )
 
 
 def snap(uv: Floats, outlines: Outlines) -> tuple[Ints, Graph]:
     """Round UV and outlines to a grid of 2^-18 mm, or coarser for more than a metre.
+
+    Outlines keep to a coarser grid, on which they are noded: what comes to lie on each other there
+    becomes one, so that no feature of theirs is smaller.
 
     Parameters
     ----------
@@ -51,73 +64,70 @@ def snap(uv: Floats, outlines: Outlines) -> tuple[Ints, Graph]:
         raise CutError("a chart or an outline has coordinates that are no numbers", hint="flatten it anew")
     low = everything.min(axis=0, initial=np.inf)
     extent = float((everything.max(axis=0, initial=-np.inf) - low).max())
-    exponent = FINEST if extent <= 0 else min(FINEST, int(np.floor(np.log2((LIMIT - 2) / extent))))
+    exponent = FINEST if extent <= 0 else min(FINEST, int(np.floor(np.log2((LIMIT - 2 * STEP) / extent))))
     scale = 2.0**exponent
-    # the origin is a whole grid step, so that equal grids give equal rounding wherever the chart lies
-    origin = np.floor(low * scale)
+    # the origin is a grid line, so that where all charts lie does not change how they are rounded
+    origin = np.floor(low * scale / STEP) * STEP
     U = (np.rint(uv * scale) - origin).astype(np.int64)
-    P = (np.rint(outlines.points * scale) - origin).astype(np.int64)
-    return U, _contracted(P, outlines, SHORT_MM * scale)
+    P = (np.rint(outlines.points * scale / STEP) - origin / STEP).astype(np.int64)
+    return U, _graph(P, outlines)
 
 
-def _contracted(P: Ints, outlines: Outlines, short: float) -> Graph:
-    """Merge points that coincide or hang on a short segment, and the segments between them."""
-    ends = outlines.segments
-    key = (P[:, 0] << 31) | P[:, 1]
-    _, first, number = np.unique(key, return_index=True, return_inverse=True)
-    place = P[first]
-    span = np.abs(P[ends[:, 0]] - P[ends[:, 1]]).max(axis=1, initial=0)
-    tiny = ends[(span > 0) & (span < short)]
-    if len(tiny):
-        rows, cols = number[tiny[:, 0]], number[tiny[:, 1]]
-        joined = coo_matrix((np.ones(len(tiny), np.int8), (rows, cols)), shape=(len(place), len(place)))
-        _, merged = connected_components(joined, directed=False)
-        _, first = np.unique(merged, return_index=True)
-        number, place = merged[number], place[first]
+def _graph(P: Ints, outlines: Outlines) -> Graph:
+    """Merge what coincides on the outlines' own grid."""
+    _, first, number = np.unique((P[:, 0] << 31) | P[:, 1], return_index=True, return_inverse=True)
     number = number.astype(np.int64)
-    S = number[ends]
-    keep = np.flatnonzero(S[:, 0] != S[:, 1])
-    left, right = outlines.left[keep], outlines.right[keep]
-    S, source, left, right = _single(S[keep], keep, left, right, len(place))
-    thin = _spurs(S, np.bincount(ends.ravel(), minlength=len(P)), number, len(place))
-    return Graph(place, S[~thin], left[~thin], right[~thin], source[~thin], number)
+    ends = number[outlines.segments]
+    long = np.flatnonzero(ends[:, 0] != ends[:, 1])
+    points, S, part = noded(P[first], ends[long])
+    source = long[part]
+    span = _span(points, S, points[ends[source]])
+    graph = Graph(points * STEP, S, outlines.left[source], outlines.right[source], source, span, number)
+    graph = _single(graph)
+    loose_before = np.bincount(outlines.segments.ravel(), minlength=len(P)) == 1
+    return graph.take(~_spurs(graph, number[loose_before]))
 
 
-def _single(S: Ints, source: Ints, left: Ints, right: Ints, n: int) -> tuple[Ints, Ints, Ints, Ints]:
-    """Replace segments that came to lie on each other by one with the outermost labels, or by none."""
+def _span(points: Ints, S: Ints, whole: Ints) -> Floats:
+    """Give where the ends of segments S lie along the whole segments (k, 2, 2) they come from."""
+    a, d = whole[:, 0], whole[:, 1] - whole[:, 0]
+    length2 = np.einsum("ij,ij->i", d, d)
+    return np.stack([np.einsum("ij,ij->i", points[S[:, k]] - a, d) / length2 for k in (0, 1)], 1)
+
+
+def _single(graph: Graph) -> Graph:
+    """Replace segments that lie on each other by one with the outermost labels, or by none."""
+    S, n = graph.segments, np.int64(len(graph.points))
     turned = S[:, 0] > S[:, 1]
-    key = S.min(axis=1, initial=n) * np.int64(n) + S.max(axis=1, initial=-1)
+    key = S.min(axis=1, initial=n) * n + S.max(axis=1, initial=-1)
     order = np.argsort(key, kind="stable")
-    ordered = key[order]
-    begins = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1])) if len(key) else order
+    begins = np.flatnonzero(np.append(True, key[order][1:] != key[order][:-1])[: len(key)])
     counts = np.diff(np.append(begins, len(key)))
-    if (counts <= 1).all():
-        return S, source, left, right
-    L, R = np.where(turned, right, left), np.where(turned, left, right)
+    left, right = graph.left.copy(), graph.right.copy()
     keep = np.ones(len(S), bool)
-    left, right = left.copy(), right.copy()
     for b, c in zip(begins[counts > 1], counts[counts > 1], strict=True):
         group = order[b : b + c]
         keep[group[1:]] = False
-        ls, rs = Counter(L[group].tolist()), Counter(R[group].tolist())
-        outer_left, outer_right = ls - rs, rs - ls
-        if not outer_left or not outer_right:
+        on_left = Counter(np.where(turned, right, left)[group].tolist())
+        on_right = Counter(np.where(turned, left, right)[group].tolist())
+        # a label on both sides lies between two of them, in no area
+        outer = next(iter(on_left - on_right), None), next(iter(on_right - on_left), None)
+        if outer[0] is None or outer[1] is None:
             keep[group[0]] = False
             continue
-        one, other = next(iter(outer_left)), next(iter(outer_right))
-        g = group[0]
-        left[g], right[g] = (other, one) if turned[g] else (one, other)
-    return S[keep], source[keep], left[keep], right[keep]
+        left[group[0]], right[group[0]] = outer[::-1] if turned[group[0]] else outer
+    return graph._replace(left=left, right=right).take(keep)
 
 
-def _spurs(S: Ints, degree_before: Ints, number: Ints, n: int) -> Bools:
-    """Mark segments that contraction has left dangling; (k,) bool."""
+def _spurs(graph: Graph, loose_before: Ints) -> Bools:
+    """Mark segments that merging has left dangling, (k,)."""
+    n = len(graph.points)
     closed = np.ones(n, bool)
-    closed[number[degree_before == 1]] = False
-    thin = np.zeros(len(S), bool)
+    closed[loose_before] = False
+    spur = np.zeros(len(graph.segments), bool)
     while True:
-        degree = np.bincount(S[~thin].ravel(), minlength=n)
-        loose = ((degree == 1) & closed)[S].any(axis=1) & ~thin
-        if not loose.any():
-            return thin
-        thin |= loose
+        degree = np.bincount(graph.segments[~spur].ravel(), minlength=n)
+        more = ((degree == 1) & closed)[graph.segments].any(axis=1) & ~spur
+        if not more.any():
+            return spur
+        spur |= more

@@ -8,6 +8,7 @@ import numpy as np
 
 from meshjig.measure import area_vectors, unit
 from meshjig.solid.crossings import at_any_corner, crossing_pairs, near
+from meshjig.solid.smoothing import Smoother
 from meshjig.solid.visible import visible_directions
 from meshjig.types import Bools, Floats, Ints
 
@@ -19,7 +20,9 @@ _MAX_ROUNDS = 24
 _SHORTEST = 0.06  # mm, where retreating ends
 
 
-def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dict[str, Any]]:
+def unfold(
+    V: Floats, F: Ints, D: Floats, thickness: float, smoother: Smoother
+) -> tuple[Floats, dict[str, Any]]:
     """Move an inner sheet until it neither flips nor crosses itself or the outer sheet.
 
     Parameters
@@ -28,6 +31,7 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
     F : (m, 3) int64
     D : (n, 3) float64, mm; V + D is the inner sheet
     thickness : float, mm, what D aims at
+    smoother : Smoother of the outer sheet
 
     Returns
     -------
@@ -44,11 +48,14 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
     them, are left alone.
     """
     n, m = len(V), len(F)
-    mean = _neighbour_mean(F, n)
-    follow = _position_share(V, F, thickness)
+    patches = Patches(F, n)
+    edge = _mean_edges(V, F)
+    follow = (0.75 * np.clip(1.75 - edge / thickness, 0.0, 1.0))[:, None]
     centre = V[F].mean(1)
     both = np.concatenate([F, F + n])
-    cell = max(thickness, 2 * float(np.linalg.norm(V[F[:, 0]] - V[F[:, 1]], axis=1).mean()))
+    cell = max(thickness, 2 * float(edge.mean()))
+    ring = float(edge.mean())
+    global RING;RING=ring
     flips = flipped(V, F, D)
     pairs = np.empty((0, 2), np.int64)
     hopeless = np.zeros(m, bool)  # where the outer sheet crosses itself
@@ -70,12 +77,13 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
             break
         before = D
         if rounds < _SMOOTH_ROUNDS:
-            passes = 4 if rounds < 4 else 8
-            D = _smoothed(V, D, mean, follow, _around(F, bad, mean, 2 + rounds // 4), passes)
+            patch = patches.around(F[bad], (2 + rounds // 4) * max(1.0, 0.4 * thickness / ring))
+            scale = max((.5 if rounds < 4 else .7) * thickness, 0.8 * ring)
+            D = _smoothed(V, D, smoother, follow, patch, scale)
             if rounds >= 2:
-                D = _shortened(D, F, pairs % m, centre, 1.2 * thickness, mean)
+                D = _shortened(D, F, pairs % m, centre, 1.2 * thickness, patches, smoother, scale)
         else:
-            D = _retreated(V, F, D, mean, bad)
+            D = _retreated(V, F, D, patches, smoother, bad, 0.3*thickness)
         moved = at_any_corner((before != D).any(1), F)
         touched = np.flatnonzero(moved)
         flips[touched] = flipped(V, F[touched], D)
@@ -104,68 +112,55 @@ def _renewed(V: Floats, inner: Floats, both: Ints, known: Ints, changed: Bools, 
     return np.concatenate([still, pairs[active[pairs].any(1)]])
 
 
-def _neighbour_mean(F: Ints, n: int) -> Any:
-    """Give the (n, n) sparse matrix that averages over the neighbours of a vertex."""
-    from scipy.sparse import coo_matrix, diags
-
-    i, j = F.ravel(), F[:, [1, 2, 0]].ravel()
-    ones = np.ones(2 * len(i))
-    A = coo_matrix((ones, (np.concatenate([i, j]), np.concatenate([j, i]))), shape=(n, n)).tocsr()
-    A.data[:] = 1.0
-    return (diags(1.0 / np.maximum(np.asarray(A.sum(1)).ravel(), 1.0)) @ A).tocsr()
-
-
-def _around(F: Ints, bad: Bools, mean: Any, rings: int) -> Ints:
-    """List the vertices of bad faces and of some rings around them."""
-    mark = np.zeros(mean.shape[0], bool)
-    mark[F[bad].ravel()] = True
-    for _ in range(rings):
-        mark |= (mean @ mark.astype(np.float64)) > 0
-    return np.flatnonzero(mark)
-
-
-def _position_share(V: Floats, F: Ints, thickness: float) -> Floats:
-    """Tell how far inner positions, instead of D, may be smoothed: not where edges are long.
-
-    A step of smoothing moves vertices by a share of the edge length, and may not carry them to the outer sheet.
-    """
+def _mean_edges(V: Floats, F: Ints) -> Floats:
     length = np.linalg.norm(V[F] - V[F[:, [1, 2, 0]]], axis=2)
     count = np.maximum(np.bincount(F.ravel(), minlength=len(V)), 1)
-    edge = np.bincount(F.ravel(), length.ravel(), len(V)) / count
-    return (0.75 * np.clip(1.75 - edge / thickness, 0.0, 1.0))[:, None]
+    return np.bincount(F.ravel(), length.ravel(), len(V)) / count
 
 
-def _smoothed(V: Floats, D: Floats, mean: Any, follow: Floats, v: Ints, passes: int) -> Floats:
-    rows = mean[v]
-    inner = V + D
-    for _ in range(passes):
-        inner[v] = 0.3 * inner[v] + 0.7 * (rows @ inner)
-    D = D.copy()
-    D[v] = follow[v] * (inner[v] - V[v]) + (1 - follow[v]) * (rows @ (mean @ D))
-    return D
+def _smoothed(V,D,smoother,follow,v,scale):
+    inner = smoother.inside(V + D, scale, v) - V[v]
+    E=D.copy()
+    E[v] = follow[v] * inner + (1 - follow[v]) * smoother.inside(D, scale, v)
+    return E
 
 
-def _shortened(D: Floats, F: Ints, pairs: Ints, centre: Floats, far: float, mean: Any) -> Floats:
-    """Draw D in where faces cross that are far apart on the outer sheet: two walls share the room."""
+def _soft(n,core,patches,smoother,scale,ring):
+    w=np.zeros(n);w[core]=1.
+    v=patches.around(core,max(1.,2*scale/ring))
+    w[v]=np.minimum(1.,2*smoother.inside(w,max(scale,.5*ring),v));w[core]=1.
+    return w,v
+
+
+def _shortened(D,F,pairs,centre,far,patches,smoother,scale):
     apart = np.linalg.norm(centre[pairs[:, 0]] - centre[pairs[:, 1]], axis=1)
     met = pairs[apart > far].ravel()
     if not len(met):
         return D
-    weight = np.zeros(len(D))
-    weight[F[met].ravel()] = 1.0
-    weight = np.maximum(weight, mean @ weight)
-    weight[np.linalg.norm(D, axis=1) < 5 * _SHORTEST] = 0.0
-    return D * (1 - 0.1 * weight)[:, None]
+    w,_=_soft(len(D),np.unique(F[met]),patches,smoother,.5*scale,RING)
+    w[np.linalg.norm(D, axis=1) < 5 * _SHORTEST] = 0.0
+    return D * (1 - 0.1 * w)[:, None]
 
 
-def _retreated(V: Floats, F: Ints, D: Floats, mean: Any, bad: Bools) -> Floats:
-    """Shorten D at bad faces, turn it to where it sees the faces around, and blend it into the rest."""
+def _retreated(V,F,D,patches,smoother,bad,scale):
     core = np.unique(F[bad])
-    v = _around(F, bad, mean, 1)
-    D = D.copy()
-    length = np.linalg.norm(D[core], axis=1)
-    way = unit(unit(D[core]) - visible_directions(V, F, core, -D[core]))
-    D[core] = np.where(length > _SHORTEST, 0.75 * length, length)[:, None] * way
-    rest = np.setdiff1d(v, core)
-    D[rest] = 0.6 * D[rest] + 0.4 * (mean[rest] @ D)
+    w,v=_soft(len(D),core,patches,smoother,scale,RING)
+    length=np.linalg.norm(D,axis=1)
+    D = D*np.where(length > _SHORTEST,1-.25*w,1.)[:,None]
+    l=np.linalg.norm(D[core],axis=1)
+    D[core] = l[:, None] * unit(unit(D[core]) - visible_directions(V, F, core, -D[core]))
+    rest=np.setdiff1d(v,core)
+    D[rest]=.6*D[rest]+.4*smoother.inside(D,max(scale,.8*RING),rest)
     return D
+
+
+class Patches:
+    def __init__(self,F,n):
+        from scipy.sparse import coo_matrix
+        i, j = F.ravel(), F[:, [1, 2, 0]].ravel()
+        self.A=coo_matrix((np.ones(2*len(i),np.int8),(np.concatenate([i,j]),np.concatenate([j,i]))),shape=(n,n)).tocsr()
+    def around(self,core,rings):
+        mark=np.zeros(self.A.shape[0],bool);front=np.unique(core);mark[front]=True
+        for _ in range(int(np.ceil(rings))):
+            near_=np.unique(self.A[front].indices);front=near_[~mark[near_]];mark[front]=True
+        return np.flatnonzero(mark)

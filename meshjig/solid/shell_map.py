@@ -61,7 +61,7 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
     D = _drift(V, depth, thickness, smoother) - depth[:, None] * d
     for _ in range(_CORRECTIONS):
         D = _corrected(V, F, D, d, depth, room, thickness, smoother)
-    D, folds = unfold(V, F, D, thickness)
+    D, folds = unfold(V, F, D, thickness, smoother)
     length = np.linalg.norm(D, axis=1)
     thin = thin_share(V, F, length < _THIN * thickness)
     return D, {"thin_area_share": thin, "min_thickness": float(length.min()), **folds}

@@ -34,7 +34,12 @@ class Smoother:
     def __init__(self, V: Floats, F: Ints) -> None:
         self.mass = _vertex_areas(V, F)
         self._L = _laplacian(V, F)
-        self._diagonal = self._L.diagonal()
+        from scipy.sparse import coo_matrix, diags
+        n=len(V);i,j=F.ravel(),F[:,[1,2,0]].ravel()
+        A=coo_matrix((np.ones(2*len(i)),(np.concatenate([i,j]),np.concatenate([j,i]))),shape=(n,n)).tocsr();A.data[:]=1
+        deg=np.asarray(A.sum(1)).ravel()
+        h=float(np.linalg.norm(V[F[:,0]]-V[F[:,1]],axis=1).mean())
+        self._U=((diags(deg)-A)*(1/6/h**2*4)).tocsr();self._deg=deg/6
 
     def __call__(self, values: Floats, scale: float) -> Floats:
         """Smooth values, one row a vertex.
@@ -52,27 +57,42 @@ class Smoother:
 
     def solve(self, integrals: Floats, scale: float, start: Floats) -> Floats:
         """Solve (M + scale^2/2 L) x = integrals from a first guess; shapes as in a call."""
-        b = integrals.reshape(len(self.mass), -1)
-        x = start.reshape(b.shape).copy()
+        x = start.reshape(len(self.mass), -1)
+        b = integrals.reshape(x.shape)
         half = scale * scale / 2
-        diagonal = (self.mass + half * self._diagonal)[:, None]
-        mass = self.mass[:, None]
-        r = b - mass * x - half * (self._L @ x)
+        lack = b - self.mass[:, None] * x - half * (self._L @ x)
+        return (x + self._correction(self._L, self.mass, half, lack, b)).reshape(start.shape)
+
+    def inside(self, values: Floats, scale: float, patch: Ints) -> Floats:
+        """Smooth values at the vertices of a patch, with all others held; the shape of values[patch]."""
+        x = values.reshape(len(self.mass), -1)
+        mass, half, rows = self._deg[patch], scale * scale / 2, self._U[patch]
+        lack = -half * (rows @ x)
+        near = x[patch] - x[patch].mean(0) if len(patch) else x[patch]
+        change = self._correction(rows[:, patch], mass, half, lack, mass[:, None] * (near + scale))
+        return (x[patch] + change).reshape(values[patch].shape)
+
+    @staticmethod
+    def _correction(L: Any, mass: Floats, half: float, lack: Floats, size: Floats) -> Floats:
+        """Solve (M + half L) x = lack by conjugate gradients, to a small part of what size is."""
+        diagonal = (mass + half * L.diagonal())[:, None]
+        mass = mass[:, None]
+        x, r = np.zeros_like(lack), lack
         z = r / diagonal
-        p = z.copy()
+        p = z
         rz = np.einsum("ij,ij->j", r, z)
-        enough = _TOLERANCE**2 * np.maximum(np.einsum("ij,ij->j", b, b / diagonal), 1e-300)
+        enough = _TOLERANCE**2 * np.maximum(np.einsum("ij,ij->j", size, size / diagonal), 1e-300)
         for _ in range(_MAX_ITERATIONS):
             if (rz <= enough).all():
                 break
-            q = mass * p + half * (self._L @ p)
+            q = mass * p + half * (L @ p)
             step = rz / np.maximum(np.einsum("ij,ij->j", p, q), 1e-300)
-            x += step * p
-            r -= step * q
+            x = x + step * p
+            r = r - step * q
             z = r / diagonal
             before, rz = rz, np.einsum("ij,ij->j", r, z)
             p = z + (rz / np.maximum(before, 1e-300)) * p
-        return x.reshape(integrals.shape)
+        return x
 
 
 def _vertex_areas(V: Floats, F: Ints) -> Floats:

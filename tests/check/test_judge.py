@@ -76,6 +76,11 @@ def test_what_is_exempt_is_measured_but_not_held_against_the_puzzle():
     assert verdict.failures == {"gap_mm": ["piece_001", "piece_002"]}
 
 
+def test_a_piece_that_breaks_a_promise_twice_is_named_once_and_in_order():
+    row = [box([10 * k, 0, 0], [10 * k + 9.9, 10, 2]) for k in (2, 1, 0)]
+    assert judge(row, **ASKED).failures["gap_mm"] == ["piece_001", "piece_002", "piece_003"]
+
+
 def test_a_promise_about_an_unknown_figure_is_not_held():
     verdict = judge([GOOD[0], pushed(GOOD[1], 0.1)])
     assert verdict.ok
@@ -85,7 +90,9 @@ def test_a_promise_about_an_unknown_figure_is_not_held():
 
 
 def test_overlap_of_an_open_piece_is_unknown():
-    assert judge([GOOD[0], without_a_face(GOOD[1])]).checks["overlap_mm3"] is None
+    verdict = judge([GOOD[0], without_a_face(GOOD[1])])
+    assert verdict.checks["overlap_mm3"] is None
+    assert verdict.failures["overlap_mm3"] == ["piece_002"]
 
 
 @pytest.mark.parametrize(

@@ -43,3 +43,11 @@ def test_walls_towards_a_neighbour_are_no_thickness():
 
 def test_unknown_thickness_leaves_the_share_unknown():
     assert measure_thickness(PLATES).facts(None)["thin_area_share"] is None
+
+
+def test_a_body_without_opposite_sides_has_no_thickness():
+    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float)
+    tetrahedron = corners, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    assert measure_thickness([tetrahedron]).facts(2.0) == dict.fromkeys(
+        ["min", "p1", "median", "thin_area_share"]
+    )
