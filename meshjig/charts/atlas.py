@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from meshjig.charts.flatten import Method, border_is_simple, flatten, is_unflipped, unit_stretch
 from meshjig.charts.layout import lie_along, shelves
+from meshjig.charts.part import part
 from meshjig.charts.proxy import proxy
 from meshjig.charts.quality import quality
 from meshjig.charts.rescue import rescue
@@ -76,7 +77,7 @@ def build_atlas(
     for c in range(n):
         faces = np.flatnonzero(component == c)
         G, kept = compact(mesh.F[faces])
-        charts += [(faces[part], uv) for part, uv in _charts(V[kept], G, flattening, seed, chooser)]
+        charts += [(faces[own], uv) for own, uv in _charts(V[kept], G, flattening, seed, chooser)]
     atlas = _lay_out(mesh, charts, margin)
     facts: dict[str, Any] = {**quality(atlas), "method": "xatlas" if method == "xatlas" else flattening}
     if log is not None:
@@ -106,7 +107,7 @@ def _carried(V: Floats, F: Ints, W: Floats, G: Ints, method: Method) -> Floats |
     (F, kept), (G, light) = compact(F), compact(G)
     V, W = V[kept], W[light]
     try:
-        uv = untangle(V, F, transfer_uv(V, W, G, flatten(W, G, method)))
+        uv = part(V, F, untangle(V, F, transfer_uv(V, W, G, flatten(W, G, method))))
     except ChartError:
         return None
     return unit_stretch(V, F, uv) if is_unflipped(uv, F) and border_is_simple(uv, F) else None

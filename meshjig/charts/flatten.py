@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from meshjig.charts.arap import arap
 from meshjig.charts.border import border_loop
 from meshjig.charts.lscm import lscm
+from meshjig.charts.part import part
 from meshjig.charts.slim import slim
 from meshjig.charts.tutte import tutte
 from meshjig.errors import ChartError
@@ -38,7 +39,7 @@ def flatten(V: Floats, F: Ints, method: Method = "slim") -> Floats:
 
     LSCM comes first; where it mirrors faces, Tutte's embedding takes its place and SLIM follows,
     whatever the method. LSCM or ARAP that folds or overlaps gives way to SLIM. A chart may grow into
-    itself as it nears isometry: then it stops earlier, where that helps.
+    itself as it nears isometry: then its borders are drawn apart, or it stops earlier.
 
     Parameters
     ----------
@@ -67,12 +68,13 @@ def flatten(V: Floats, F: Ints, method: Method = "slim") -> Floats:
             return unit_stretch(V, F, uv)
     for iterations in _ITERATIONS if len(F) < _HEAVY else _ITERATIONS[1:]:
         uv = slim(V, F, start, iterations)
-        uv = uv if is_unflipped(uv, F) else start
-        if border_is_simple(uv, F):
-            break
-    if not is_unflipped(uv, F):
+        if is_unflipped(uv, F) and not border_is_simple(uv, F):
+            uv = part(V, F, uv)
+        if is_unflipped(uv, F) and border_is_simple(uv, F):
+            return unit_stretch(V, F, uv)
+    if not is_unflipped(start, F):
         raise ChartError("a chart can't be flattened without folds", hint="repair its degenerate faces")
-    return unit_stretch(V, F, uv)
+    return unit_stretch(V, F, start)
 
 
 def is_unflipped(uv: Floats, F: Ints) -> bool:

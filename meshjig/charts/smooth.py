@@ -10,10 +10,8 @@ __all__ = ["smooth"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_SPREAD = 0.02  # of the root of the area: how far labels diffuse in a step
 
-
-def smooth(dual: Dual, label: Ints, steps: int = 2) -> Ints:
+def smooth(dual: Dual, label: Ints, reach: float = 0.02, steps: int = 2) -> Ints:
     """Shorten borders; folds hold them in place.
 
     Each step diffuses the indicator of every label over the faces, and gives each face the label
@@ -23,6 +21,7 @@ def smooth(dual: Dual, label: Ints, steps: int = 2) -> Ints:
     ----------
     dual : Dual
     label : (m,) int64, 0 to k - 1
+    reach : float, of the root of the area: how far labels diffuse in a step
     steps : int
 
     Returns
@@ -39,7 +38,7 @@ def smooth(dual: Dual, label: Ints, steps: int = 2) -> Ints:
     fold = 0.02 + 0.98 * np.clip(dual.bend, 0, 1) ** 4
     W = dual.graph(dual.length / np.maximum(dual.span, 1e-9 * dual.span.max()) * fold)
     L = diags(np.asarray(W.sum(1)).ravel()) - W
-    time = _SPREAD**2 * dual.area.sum()
+    time = reach**2 * dual.area.sum()
     area = np.maximum(dual.area, 1e-9 * dual.area.mean())
     matrix = (diags(area) + time * L).tocsc()
     solver = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})

@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.dual import dual
+from meshjig.charts.smooth import smooth
 from meshjig.charts.tidy import tidy
 from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
 
@@ -11,9 +13,11 @@ __all__ = ["transfer_labels", "transfer_uv"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_REACH = 0.008  # of the root of the area: a proxy's faces show as teeth along its borders
+
 
 def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints:
-    """Give each face of a mesh the label of the nearest face of its proxy, then tidy up.
+    """Give each face of a mesh the label of the nearest face of its proxy, with borders made straight.
 
     Parameters
     ----------
@@ -31,7 +35,8 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     N, M = area_vectors(V, F), area_vectors(W, G)
     same_side = np.einsum("ij,ij->i", N, M[near]) >= 0  # of a thin sheet
     known = np.where(same_side, label[near], -1) if same_side.any() else label[near]
-    return tidy(F, known, face_areas(V, F))
+    area = face_areas(V, F)
+    return tidy(F, smooth(dual(V, F), tidy(F, known, area), _REACH), area)
 
 
 def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:

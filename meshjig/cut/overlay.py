@@ -38,7 +38,7 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     CutMesh
         Sub-faces cover their parent exactly. No cut is shorter than about 5e-5 mm where the mesh
         is not: new vertices keep that distance on edges. facts: crossings, zero_predicates,
-        ties, seam_merged, respaced, split_faces, steiner, label_conflicts, largest_part.
+        ties, seam_merged, respaced, split_faces, untangled, steiner, label_conflicts, largest_part.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     places = half_edge_places(
         sheet, ring, nodes, links, landing_weights(sheet, graph, landings), wiring.slot, wiring.leaving
     )
-    filling = fill(places, parts, corner_frames(sheet, ring.faces))
+    places, filling = fill(places, parts, corner_frames(sheet, ring.faces))
     n_regions, *of = regions(sheet, ring, parts)
     faces = assemble_faces(sheet, ring, places, parts, filling, (of[0], of[1]))
     V, vertex_face, vertex_bary = place_vertices(sheet, origin, ring, places, parts, filling)
@@ -73,9 +73,8 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     for r in np.flatnonzero(~known).tolist():
         label[r] = label_at(graph, sheet.U[sheet.F_uv[sample[r], 0]])
 
-    first_landing = len(sheet.V) + len(nodes.edge)
     vertex_of_place = np.full(len(graph.points), -1)
-    vertex_of_place[landings.point[::-1]] = first_landing + np.arange(len(landings.point))[::-1]
+    vertex_of_place[landings.point[::-1]] = places.first_landing + np.arange(len(landings.point))[::-1]
     forth = len(ring.next) + np.arange(len(links.face))
     return CutMesh(
         V=V,
@@ -96,6 +95,7 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
             "seam_merged": nodes.n_merged,
             "respaced": nodes.n_respaced,
             "split_faces": len(sheet.F) - len(mesh.F),
+            "untangled": filling.n_untangled,
             "steiner": len(filling.centre_part),
             "label_conflicts": n_conflicts,
             "largest_part": int(parts.size.max(initial=0)),

@@ -27,6 +27,7 @@ class Places(NamedTuple):
     vertex: Ints  # (h,)
     row: Ints  # (h,), the face as a place in the ring's faces
     bary: Floats  # (h, 3)
+    first_landing: int
     n_vertices: int
 
 
@@ -79,8 +80,8 @@ def half_edge_places(
     vertex[nr + landed] = len(sheet.V) + len(nodes.edge) + tail[landed] - nx
     bary[nr + landed] = weights[tail[landed] - nx]
     vertex[leaving], bary[leaving] = vertex[slots], bary[slots]
-    n_landed = len(weights)
-    return Places(vertex, row, bary, len(sheet.V) + len(nodes.edge) + n_landed)
+    first_landing = len(sheet.V) + len(nodes.edge)
+    return Places(vertex, row, bary, first_landing, first_landing + len(weights))
 
 
 def corner_frames(sheet: Sheet, faces: Ints) -> Floats:

@@ -111,11 +111,14 @@ def _single(graph: Graph) -> Graph:
         on_left = Counter(np.where(turned, right, left)[group].tolist())
         on_right = Counter(np.where(turned, left, right)[group].tolist())
         # a label on both sides lies between two of them, in no area
-        outer = next(iter(on_left - on_right), None), next(iter(on_right - on_left), None)
-        if outer[0] is None or outer[1] is None:
+        outer_left, outer_right = list(on_left - on_right), list(on_right - on_left)
+        if not outer_left or not outer_right:
             keep[group[0]] = False
             continue
-        left[group[0]], right[group[0]] = outer[::-1] if turned[group[0]] else outer
+        g = group[0]
+        left[g], right[g] = outer_left[0], outer_right[0]
+        if turned[g]:
+            left[g], right[g] = right[g], left[g]
     return graph._replace(left=left, right=right).take(keep)
 
 

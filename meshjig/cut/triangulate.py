@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.cut.cycles import Cycles
 from meshjig.cut.ears import clip_ears
 from meshjig.cut.places import Places
+from meshjig.cut.untangle import parts_beside, untangled
 from meshjig.types import Floats, Ints
 
 __all__ = ["Filling", "fill"]
@@ -21,42 +22,69 @@ class Filling(NamedTuple):
     part: Ints  # (t,), the cycle each triangle fills
     centre_part: Ints  # (s,), the cycle of each centre
     centre_bary: Floats  # (s, 3), where it lies in its face
+    n_untangled: int  # parts whose corners had to be moved
 
 
-def fill(places: Places, parts: Cycles, frames: Floats) -> Filling:
+def fill(places: Places, parts: Cycles, frames: Floats) -> tuple[Places, Filling]:
     """Triangulate every part of every cut face.
 
-    What can't be clipped in its own shape is tried in that of an equilateral face, where a
-    needle is none; what fails there too is fanned from its centre.
+    A part that can't be clipped has its corners inside the face moved, as few as will do; what
+    fails still is fanned from its centre.
 
     Parameters
     ----------
     places : Places
     parts : Cycles
     frames : (t, 3, 2) float64, the flat corners of cut faces
-    """
-    members = parts.members
-    bary, row = places.bary[members], places.row[members]
-    flat = np.einsum("hk,hkd->hd", bary, frames[row])
-    T, part, failed = clip_ears(flat, parts.first, parts.size)
-    pieces, owners = [T], [part]
-    if len(failed):
-        again, owner, failed_again = clip_ears(
-            bary @ IDEAL, parts.first[failed], parts.size[failed], thorough=True
-        )
-        pieces.append(again)
-        owners.append(failed[owner])
-        failed = failed[failed_again]
-    T = members[np.concatenate(pieces)]
-    part = np.concatenate(owners)
-    if not len(failed):
-        return Filling(T, part, failed, np.zeros((0, 3)))
 
-    size = parts.size[failed]
-    which = np.repeat(np.arange(len(failed)), size)
+    Returns
+    -------
+    places : Places, with corners moved
+    filling : Filling
+    """
+    T, part, failed = _clipped(places, parts, frames, np.arange(len(parts.size)))
+    n_untangled = len(failed)
+    for all_in_face in (False, True):
+        if not len(failed):
+            break
+        places = untangled(places, parts, failed, all_in_face=all_in_face)
+        again = parts_beside(places, parts, failed)
+        kept = ~np.isin(part, again)
+        new, new_part, failed = _clipped(places, parts, frames, again)
+        T, part = np.concatenate([T[kept], new]), np.concatenate([part[kept], new_part])
+    fan, fan_part, centre = _fans(places, parts, failed)
+    return places, Filling(
+        np.concatenate([T, fan]), np.concatenate([part, fan_part]), failed, centre, n_untangled
+    )
+
+
+def _clipped(places: Places, parts: Cycles, frames: Floats, some: Ints) -> tuple[Ints, Ints, Ints]:
+    """Clip some parts in the shape of their face, or else of an equilateral one, where needles are none.
+
+    Returns
+    -------
+    T : (t, 3) int64, half-edges
+    part : (t,) int64
+    failed : (f,) int64, parts
+    """
+    bary, row = places.bary[parts.members], places.row[parts.members]
+    flat = np.einsum("hk,hkd->hd", bary, frames[row])
+    T, owner, failed = clip_ears(flat, parts.first[some], parts.size[some])
+    part, failed = some[owner], some[failed]
+    if len(failed):
+        more, owner, still = clip_ears(bary @ IDEAL, parts.first[failed], parts.size[failed], thorough=True)
+        T, part = np.concatenate([T, more]), np.concatenate([part, failed[owner]])
+        failed = failed[still]
+    return parts.members[T], part, failed
+
+
+def _fans(places: Places, parts: Cycles, some: Ints) -> tuple[Ints, Ints, Floats]:
+    """Join the sides of parts to their centres; also give where those lie."""
+    size = parts.size[some]
+    which = np.repeat(np.arange(len(some)), size)
     k = np.arange(len(which)) - np.repeat(np.cumsum(size) - size, size)
-    here = parts.first[failed][which] + k
-    after = parts.first[failed][which] + (k + 1) % size[which]
-    centre = np.stack([np.bincount(which, bary[here, j], len(failed)) for j in range(3)], 1) / size[:, None]
-    fan = np.stack([members[here], members[after], len(members) + which], 1)
-    return Filling(np.concatenate([T, fan]), np.concatenate([part, failed[which]]), failed, centre)
+    first = parts.first[some][which]
+    here, after = parts.members[first + k], parts.members[first + (k + 1) % size[which]]
+    total = np.stack([np.bincount(which, places.bary[here, j], len(some)) for j in range(3)], 1)
+    fan = np.stack([here, after, len(places.vertex) + which], 1)
+    return fan, some[which], total / np.maximum(size, 1)[:, None]

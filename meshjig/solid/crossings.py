@@ -11,7 +11,10 @@ __all__ = ["at_any_corner", "crossing_pairs", "near"]
 
 
 def crossing_pairs(V: Floats, F: Ints) -> tuple[Ints, Floats]:
-    """List the pairs of triangles that pass through each other; touching is no crossing.
+    """List the pairs of triangles that pass through each other.
+
+    Triangles that share a vertex or an edge count only if they meet elsewhere too; others that touch at a
+    point are listed with depth 0.
 
     Parameters
     ----------

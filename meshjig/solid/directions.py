@@ -71,5 +71,4 @@ def _corner_angles(V: Floats, F: Ints) -> Floats:
 
 
 def _sum_at_vertices(F: Ints, corner_values: Floats, n: int) -> Floats:
-    total: Floats = np.bincount(F.ravel(), corner_values.ravel(), n)
-    return total
+    return np.bincount(F.ravel(), corner_values.ravel(), n).astype(np.float64)

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshjig.measure import area_vectors, unit
 from meshjig.solid.crossings import at_any_corner, crossing_pairs, near
-from meshjig.solid.smoothing import Smoother
+from meshjig.solid.patches import Patches
 from meshjig.solid.visible import visible_directions
 from meshjig.types import Bools, Floats, Ints
 
@@ -20,9 +20,7 @@ _MAX_ROUNDS = 24
 _SHORTEST = 0.06  # mm, where retreating ends
 
 
-def unfold(
-    V: Floats, F: Ints, D: Floats, thickness: float, smoother: Smoother
-) -> tuple[Floats, dict[str, Any]]:
+def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dict[str, Any]]:
     """Move an inner sheet until it neither flips nor crosses itself or the outer sheet.
 
     Parameters
@@ -31,7 +29,6 @@ def unfold(
     F : (m, 3) int64
     D : (n, 3) float64, mm; V + D is the inner sheet
     thickness : float, mm, what D aims at
-    smoother : Smoother of the outer sheet
 
     Returns
     -------
@@ -45,17 +42,12 @@ def unfold(
     then retreats to the outer sheet along directions that see all faces around their vertex: short enough,
     such a sheet crosses nothing. A flip alone is left then: under an overhang finer than the thickness it
     means that D leans, not that the sheets meet. Crossings of the outer sheet with itself, and what crosses
-    them, are left alone.
+    them, are left alone and not counted.
     """
-    n, m = len(V), len(F)
-    patches = Patches(F, n)
-    edge = _mean_edges(V, F)
-    follow = (0.75 * np.clip(1.75 - edge / thickness, 0.0, 1.0))[:, None]
-    centre = V[F].mean(1)
-    both = np.concatenate([F, F + n])
-    cell = max(thickness, 2 * float(edge.mean()))
-    ring = float(edge.mean())
-    global RING;RING=ring
+    m = len(F)
+    patches = Patches(V, F)
+    both = np.concatenate([F, F + len(V)])
+    cell = max(thickness, 2 * patches.mean_edge)
     flips = flipped(V, F, D)
     pairs = np.empty((0, 2), np.int64)
     hopeless = np.zeros(m, bool)  # where the outer sheet crosses itself
@@ -77,13 +69,11 @@ def unfold(
             break
         before = D
         if rounds < _SMOOTH_ROUNDS:
-            patch = patches.around(F[bad], (2 + rounds // 4) * max(1.0, 0.4 * thickness / ring))
-            scale = max((.5 if rounds < 4 else .7) * thickness, 0.8 * ring)
-            D = _smoothed(V, D, smoother, follow, patch, scale)
+            D = _smoothed(V, D, patches, np.unique(F[bad]), thickness, rounds)
             if rounds >= 2:
-                D = _shortened(D, F, pairs % m, centre, 1.2 * thickness, patches, smoother, scale)
+                D = _shortened(V, F, D, patches, pairs % m, thickness)
         else:
-            D = _retreated(V, F, D, patches, smoother, bad, 0.3*thickness)
+            D = _retreated(V, F, D, patches, np.unique(F[bad]), thickness)
         moved = at_any_corner((before != D).any(1), F)
         touched = np.flatnonzero(moved)
         flips[touched] = flipped(V, F[touched], D)
@@ -112,55 +102,38 @@ def _renewed(V: Floats, inner: Floats, both: Ints, known: Ints, changed: Bools, 
     return np.concatenate([still, pairs[active[pairs].any(1)]])
 
 
-def _mean_edges(V: Floats, F: Ints) -> Floats:
-    length = np.linalg.norm(V[F] - V[F[:, [1, 2, 0]]], axis=2)
-    count = np.maximum(np.bincount(F.ravel(), minlength=len(V)), 1)
-    return np.bincount(F.ravel(), length.ravel(), len(V)) / count
-
-
-def _smoothed(V,D,smoother,follow,v,scale):
-    inner = smoother.inside(V + D, scale, v) - V[v]
-    E=D.copy()
-    E[v] = follow[v] * inner + (1 - follow[v]) * smoother.inside(D, scale, v)
-    return E
-
-
-def _soft(n,core,patches,smoother,scale,ring):
-    w=np.zeros(n);w[core]=1.
-    v=patches.around(core,max(1.,2*scale/ring))
-    w[v]=np.minimum(1.,2*smoother.inside(w,max(scale,.5*ring),v));w[core]=1.
-    return w,v
-
-
-def _shortened(D,F,pairs,centre,far,patches,smoother,scale):
-    apart = np.linalg.norm(centre[pairs[:, 0]] - centre[pairs[:, 1]], axis=1)
-    met = pairs[apart > far].ravel()
-    if not len(met):
-        return D
-    w,_=_soft(len(D),np.unique(F[met]),patches,smoother,.5*scale,RING)
-    w[np.linalg.norm(D, axis=1) < 5 * _SHORTEST] = 0.0
-    return D * (1 - 0.1 * w)[:, None]
-
-
-def _retreated(V,F,D,patches,smoother,bad,scale):
-    core = np.unique(F[bad])
-    w,v=_soft(len(D),core,patches,smoother,scale,RING)
-    length=np.linalg.norm(D,axis=1)
-    D = D*np.where(length > _SHORTEST,1-.25*w,1.)[:,None]
-    l=np.linalg.norm(D[core],axis=1)
-    D[core] = l[:, None] * unit(unit(D[core]) - visible_directions(V, F, core, -D[core]))
-    rest=np.setdiff1d(v,core)
-    D[rest]=.6*D[rest]+.4*smoother.inside(D,max(scale,.8*RING),rest)
+def _smoothed(V: Floats, D: Floats, patches: Patches, core: Ints, thickness: float, round_: int) -> Floats:
+    """Smooth inner positions around the core; where edges are long rather D, which moves less."""
+    patch = patches.around(core, 0.4 * thickness * (2 + round_ // 4))
+    scale = (0.5 if round_ < 4 else 0.7) * thickness
+    share = 0.75 * np.clip(1.75 - patches.edge[patch] / thickness, 0.0, 1.0)[:, None]
+    positions = patches.smoothed(V + D, scale, patch) - V[patch]
+    D = D.copy()
+    D[patch] = share * positions + (1 - share) * patches.smoothed(D, scale, patch)
     return D
 
 
-class Patches:
-    def __init__(self,F,n):
-        from scipy.sparse import coo_matrix
-        i, j = F.ravel(), F[:, [1, 2, 0]].ravel()
-        self.A=coo_matrix((np.ones(2*len(i),np.int8),(np.concatenate([i,j]),np.concatenate([j,i]))),shape=(n,n)).tocsr()
-    def around(self,core,rings):
-        mark=np.zeros(self.A.shape[0],bool);front=np.unique(core);mark[front]=True
-        for _ in range(int(np.ceil(rings))):
-            near_=np.unique(self.A[front].indices);front=near_[~mark[near_]];mark[front]=True
-        return np.flatnonzero(mark)
+def _shortened(V: Floats, F: Ints, D: Floats, patches: Patches, pairs: Ints, thickness: float) -> Floats:
+    """Draw D in where faces cross that are far apart on the outer sheet: two walls share the room."""
+    centre = V[F[pairs]].mean(2)
+    met = pairs[np.linalg.norm(centre[:, 0] - centre[:, 1], axis=1) > 1.2 * thickness]
+    if not len(met):
+        return D
+    patch, weight = patches.bump(np.unique(F[met]), 0.3 * thickness)
+    weight = weight * (np.linalg.norm(D[patch], axis=1, keepdims=True) > 5 * _SHORTEST)
+    D = D.copy()
+    D[patch] *= 1 - 0.1 * weight
+    return D
+
+
+def _retreated(V: Floats, F: Ints, D: Floats, patches: Patches, core: Ints, thickness: float) -> Floats:
+    """Shorten D at the core, turn it to where it sees the faces around, and blend it into the rest."""
+    patch, weight = patches.bump(core, 0.3 * thickness)
+    weight = weight * (np.linalg.norm(D[patch], axis=1, keepdims=True) > _SHORTEST)
+    D = D.copy()
+    D[patch] *= 1 - 0.25 * weight
+    length = np.linalg.norm(D[core], axis=1, keepdims=True)
+    D[core] = length * unit(unit(D[core]) - visible_directions(V, F, core, -D[core]))
+    rest = np.setdiff1d(patch, core)
+    D[rest] = 0.6 * D[rest] + 0.4 * patches.smoothed(D, 0.3 * thickness, rest)
+    return D

@@ -39,8 +39,9 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     Returns
     -------
     solids : list of Solid, by piece number; a number without faces has an empty one
-    facts : dict; {"raised": vertices whose D was too short, "pinches": vertices moved because a piece touched itself there, "nudged": inner
-        vertices moved because they fell together, "shrunk": pieces made thinner to keep a positive volume}
+    facts : dict of counts; {"raised": vertices whose D was too short, "pinches": vertices moved because a
+        piece touched itself there, "nudged": inner vertices moved because they fell together, "shrunk":
+        pieces made thinner to keep a positive volume}
 
     Notes
     -----
@@ -131,8 +132,8 @@ def _with_volume(
 
 def _volumes(V: Floats, F: Ints, piece: Ints, n_pieces: int) -> Floats:
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
-    volume: Floats = np.bincount(piece, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6, n_pieces)
-    return volume
+    cones = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
+    return np.bincount(piece, cones, n_pieces).astype(np.float64)
 
 
 def _apart(

@@ -50,8 +50,8 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
 
     Notes
     -----
-    Linear in the mesh. A sheet without folds (folds_left is 0) lets every piece cut from it be free of
-    self-intersections, if the outer sheet is.
+    Linear in the mesh. Sheets that don't cross keep the sheets of every piece apart; its walls, ruled along
+    D, may still cut into them where the surface overhangs and D leans.
     """
     smoother = Smoother(V, F)
     d = smooth_normals(V, F, smoother, thickness)
@@ -61,7 +61,7 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
     D = _drift(V, depth, thickness, smoother) - depth[:, None] * d
     for _ in range(_CORRECTIONS):
         D = _corrected(V, F, D, d, depth, room, thickness, smoother)
-    D, folds = unfold(V, F, D, thickness, smoother)
+    D, folds = unfold(V, F, D, thickness)
     length = np.linalg.norm(D, axis=1)
     thin = thin_share(V, F, length < _THIN * thickness)
     return D, {"thin_area_share": thin, "min_thickness": float(length.min()), **folds}
