@@ -141,9 +141,10 @@ def _cut_into_pieces(
 ) -> tuple[Outlines, Knobs, CutMesh, Stitching]:
     """Tile, cut and stitch; again with other tiles when the number of pieces is too far off."""
     wanted, tried = options.pieces, []
+    least_border = options.min_neck + options.clearance
     for _ in range(TRIES):
         with stages("tiling"):
-            choice = choose_tiles(atlas, wanted, options.stitch, options.piece_size)
+            choice = choose_tiles(atlas, wanted, options.stitch, least_border, options.piece_size)
             outlines, knobs = tile_charts(
                 atlas,
                 choice.size,
@@ -155,7 +156,7 @@ def _cut_into_pieces(
         with stages("cut"):
             cut = overlay(atlas, outlines)
         with stages("stitch"):
-            stitching = stitch(region_graph(cut), options.stitch, choice.size**2)
+            stitching = stitch(region_graph(cut), options.stitch, choice.size**2, least_border)
         tried.append((outlines, knobs, cut, stitching))
         n = stitching.n_pieces
         log.info("tiles of %.2f mm give %d pieces (%d expected)", choice.size, n, choice.expected)

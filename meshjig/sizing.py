@@ -25,7 +25,9 @@ class TileChoice:
     expected: int  # pieces
 
 
-def choose_tiles(atlas: Atlas, pieces: int, share: float, size: float | None = None) -> TileChoice:
+def choose_tiles(
+    atlas: Atlas, pieces: int, share: float, least_border: float = 0.0, size: float | None = None
+) -> TileChoice:
     """Find the tile size and the grid's place that give a number of pieces.
 
     Tiles with straight edges are clipped by the charts' polygons and stitched by the same rule as
@@ -35,14 +37,14 @@ def choose_tiles(atlas: Atlas, pieces: int, share: float, size: float | None = N
     ----------
     atlas : Atlas
     pieces : int
-    share : float, see `meshjig.stitch.stitch`
+    share, least_border : float, see `meshjig.stitch.stitch`
     size : float, mm; given, only the grid's place is chosen, for the most even pieces
 
     Returns
     -------
     TileChoice
     """
-    trial = _Trial(atlas, share)
+    trial = _Trial(atlas, share, least_border)
     if size is not None:
         best = min(((*trial.count(size, shift), shift) for shift in _SHIFTS), key=lambda c: c[1])
         return TileChoice(size, best[2], best[0])
@@ -65,11 +67,11 @@ def choose_tiles(atlas: Atlas, pieces: int, share: float, size: float | None = N
 class _Trial:
     """Straight tiles clipped by the charts, again and again."""
 
-    def __init__(self, atlas: Atlas, share: float) -> None:
+    def __init__(self, atlas: Atlas, share: float, least_border: float) -> None:
         import shapely
 
         self.polygons = [p.simplify(0.05) for p in chart_polygons(atlas)]
-        self.share = share
+        self.share, self.least_border = share, least_border
         for polygon in self.polygons:
             shapely.prepare(polygon)
         e = edges(atlas.mesh.F)
@@ -87,7 +89,7 @@ class _Trial:
     def count(self, size: float, shift: tuple[float, float]) -> tuple[int, float]:
         """Give the number of pieces and their areas' coefficient of variation."""
         graph = self._graph(size, shift)
-        stitching = stitch(graph, self.share, size**2)
+        stitching = stitch(graph, self.share, size**2, self.least_border)
         area = np.bincount(stitching.piece_of_region, graph.area)
         return stitching.n_pieces, float(area.std() / area.mean())
 

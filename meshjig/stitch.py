@@ -48,7 +48,7 @@ def sum_borders(area: Floats, here: Ints, there: Ints, length: Floats, seam: Boo
     return RegionGraph(area, pairs.astype(np.int64), total, unique % 2 == 1)
 
 
-def stitch(graph: RegionGraph, share: float, tile_area: float) -> Stitching:
+def stitch(graph: RegionGraph, share: float, tile_area: float, least_border: float = 0.0) -> Stitching:
     """Join regions over seams, then give tiny pieces to a neighbour.
 
     Two regions join over a seam when the border between them is at least a given share of the seam
@@ -61,6 +61,7 @@ def stitch(graph: RegionGraph, share: float, tile_area: float) -> Stitching:
     graph : RegionGraph
     share : float, 0 to 1; 1 or more border than that joins only what meets along its whole seam
     tile_area : float, area of a whole tile, mm2
+    least_border : float, mm; over less of a seam than that a join would be too weak to be made
 
     Returns
     -------
@@ -73,7 +74,7 @@ def stitch(graph: RegionGraph, share: float, tile_area: float) -> Stitching:
     Elber and Kim, "Synthesis of 3D Jigsaw Puzzles over Freeform 2-Manifolds", section 3.2.2.
     """
     groups = _Groups(graph)
-    joins = _join_over_seams(graph, groups, share, LARGEST_JOIN * tile_area)
+    joins = _join_over_seams(graph, groups, share, LARGEST_JOIN * tile_area, least_border)
     merged, left = _merge_tiny(groups)
     roots = np.array([groups.root(r) for r in range(len(graph.area))], dtype=np.int64)
     piece = np.unique(roots, return_inverse=True)[1].astype(np.int64)
@@ -112,11 +113,13 @@ class _Groups:
         return a
 
 
-def _join_over_seams(graph: RegionGraph, groups: _Groups, share: float, largest: float) -> int:
+def _join_over_seams(
+    graph: RegionGraph, groups: _Groups, share: float, largest: float, least_border: float
+) -> int:
     seam = np.flatnonzero(graph.seam)
     pairs, length = graph.pairs[seam], graph.length[seam]
     total = np.bincount(pairs.ravel(), np.repeat(length, 2), len(graph.area))
-    enough = length >= share * total[pairs].min(1)
+    enough = length >= np.maximum(share * total[pairs].min(1), least_border)
     queue = [(groups.area[a] + groups.area[b], a, b) for a, b in pairs[enough].tolist()]
     heapq.heapify(queue)
     joins = 0

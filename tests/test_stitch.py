@@ -80,3 +80,9 @@ def test_stretches_of_border_add_up_by_pair_and_kind():
         for (a, b), s, x in zip(summed.pairs.tolist(), summed.seam, summed.length, strict=True)
     }
     assert found == {(0, 1, True): 3.0, (0, 1, False): 8.0, (1, 2, False): 4.0}
+
+
+def test_a_join_too_short_to_hold_is_not_made():
+    borders = [(0, 1, 1.0, True), (1, 2, 20, False)]
+    assert stitch(graph([60, 60, 60], borders), 0.3, 100).n_pieces == 2
+    assert stitch(graph([60, 60, 60], borders), 0.3, 100, least_border=2.0).n_pieces == 3

@@ -13,9 +13,11 @@ from scipy.sparse import coo_matrix, diags
 
 from meshjig.cut.cycles import Cycles
 from meshjig.cut.places import Places
-from meshjig.types import Floats, Ints
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["parts_beside", "untangled"]
+
+NEAR = 1e-9  # barycentric; nodes are not taken for closer
 
 
 def parts_beside(places: Places, parts: Cycles, some: Ints) -> Ints:
@@ -27,8 +29,9 @@ def parts_beside(places: Places, parts: Cycles, some: Ints) -> Ints:
 def untangled(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool) -> Places:
     """Put landings on tangled parts, or all in their faces, into the middle of their neighbours.
 
-    With a centre in each part, the parts are a triangulation of the face, and its mean-value
-    embedding turns no triangle over as long as all landings are free.
+    Joined to a centre, each part becomes a fan of triangles; when every free corner lies in the mean
+    of its neighbours, no triangle is turned over. That holds for certain when all in the face are
+    free, and mostly when a few are.
 
     Parameters
     ----------
@@ -42,13 +45,17 @@ def untangled(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool
     freed[v if all_in_face else v[np.isin(part, tangled)]] = True
     freed[: places.first_landing] = False
 
-    rows = np.concatenate([v, w, centre, v])
-    cols = np.concatenate([w, v, v, centre])
-    nodes, position = np.unique(rows, return_inverse=True)
-    free = np.append(freed, np.ones(len(parts.size), bool))[nodes]
+    ends = np.stack([np.concatenate([v, centre]), np.concatenate([w, v])], 1)
+    nodes, ends = np.unique(ends, return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    corner, middle = ends[: len(v), 0], ends[len(v) :, 0]
     at = np.zeros((len(nodes), 3))
-    at[np.searchsorted(nodes, v)] = places.bary[here]
-    at[free] = _balanced(position, np.searchsorted(nodes, cols), at, free)
+    at[corner] = places.bary[here]
+    for k in range(3):
+        at[:, k] += np.bincount(middle, places.bary[here, k], len(nodes))
+    at /= np.maximum(np.bincount(middle, minlength=len(nodes)), 1)[:, None]
+    free = np.append(freed, np.ones(len(parts.size), bool))[nodes]
+    at[free] = _balanced(ends, at, free)
     bary = places.bary.copy()
     moved = here[freed[v]]
     bary[moved] = at[np.searchsorted(nodes, places.vertex[moved])]
@@ -64,12 +71,13 @@ def _sides(parts: Cycles, some: Ints) -> tuple[Ints, Ints, Ints]:
     return parts.members[first + k], parts.members[first + (k + 1) % parts.size[part]], part
 
 
-def _balanced(rows: Ints, cols: Ints, at: Floats, free: Ints) -> Floats:
-    """Place free nodes in the mean of their neighbours."""
+def _balanced(ends: Ints, at: Floats, free: Bools) -> Floats:
+    """Place free nodes in the mean of their neighbours, of near ones foremost: then they move little."""
     from scipy.sparse.linalg import splu
 
     n = len(at)
-    links = coo_matrix((np.ones(len(rows)), (rows, cols)), shape=(n, n)).tocsr()
-    laplacian = (diags(np.asarray(links.sum(axis=1)).ravel()) - links).tocsc()
-    inner = laplacian[free]
-    return splu(inner[:, free].tocsc()).solve(-inner[:, ~free] @ at[~free])
+    weight = 1 / np.maximum(np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1), NEAR)
+    one_way = coo_matrix((weight, (ends[:, 0], ends[:, 1])), shape=(n, n)).tocsr()
+    links = one_way + one_way.T
+    laplacian = (diags(np.asarray(links.sum(axis=1)).ravel()) - links).tocsr()[free]
+    return splu(laplacian[:, free].tocsc()).solve(-(laplacian[:, ~free] @ at[~free]))

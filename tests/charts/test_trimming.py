@@ -14,9 +14,8 @@ def test_mates_describe_the_same_points_of_space(mesh):
         sides = [(c.chart, c.uv)] + ([(c.mate, c.mate_uv)] if c.mate >= 0 else [])
         for chart, uv in sides:
             assert len(uv) == len(c.xyz)
-            inward = uv.mean(0) * 1e-9  # corners lie on the rim: the nearest face is found all the same
-            _, _, xyz = lift(atlas, chart, uv + inward * 0)
-            found = ~np.isnan(xyz[:, 0])
+            _, _, xyz = lift(atlas, chart, uv)
+            found = ~np.isnan(xyz[:, 0])  # rounding may put a corner of the rim outside
             assert found.mean() > 0.5
             np.testing.assert_allclose(xyz[found], c.xyz[found], atol=1e-5)
 
@@ -51,14 +50,13 @@ def test_a_chart_lies_on_the_left_and_a_plain_border_closes():
 
 def test_a_slit_is_its_own_mate():
     V, F = disc(600)
-    radius, side = np.linalg.norm(V[F].mean(1), axis=1), V[F].mean(1)[:, 1] > 0
+    side = V[F].mean(1)[:, 1] > 0
     G = F.copy()
     on_slit = (np.abs(V[:, 1]) < 1e-9) & (V[:, 0] > 1)  # from the middle to the rim, along +x
     split = np.flatnonzero(on_slit)
     number = np.arange(len(V))
     number[split] = len(V) + np.arange(len(split))
     G[side] = number[F[side]]
-    assert radius.min() < 5
     assert len(fans(G)[1]) == len(V) + len(split)
     uv = np.concatenate([V[:, :2], V[split, :2]])
     curves = trimming_curves(Atlas(Mesh(V, F), uv, G, np.zeros(len(F), np.int64)))

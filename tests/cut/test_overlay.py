@@ -48,7 +48,7 @@ def grid_label(q, lines, turn=0.0):
 def assert_labels(a, cut, outlines, expected):
     q = midpoints_uv(a, cut)
     clear = distance_to(outlines, q) > 2e-3
-    assert clear.mean() > 0.3
+    assert clear.sum() > 100
     np.testing.assert_array_equal(cut.label[clear], expected(q[clear]))
 
 
