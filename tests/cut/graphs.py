@@ -1,12 +1,14 @@
 """Atlases and outlines to cut, and what every cut mesh has to keep."""
 
+from itertools import pairwise
+
 import numpy as np
 import shapely
 from scipy.spatial import Delaunay
 
 from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
 from meshjig.topology import edges
-from meshjig.types import Atlas, CutMesh, Floats, Ints, Mesh, Outlines
+from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Mesh, Outlines
 
 SIDE = 100.0
 
@@ -56,7 +58,9 @@ def two_charts(n: int, shift: tuple[float, float]) -> Atlas:
     """A sheet whose right half lies elsewhere in the plane."""
     p, F = flat_sheet(n)
     right = p[F].mean(axis=1)[:, 0] > SIDE / 2
-    return atlas(wavy(p), F, np.concatenate([p, p + shift]), F + right[:, None] * len(p), right.astype(np.int64))
+    return atlas(
+        wavy(p), F, np.concatenate([p, p + shift]), F + right[:, None] * len(p), right.astype(np.int64)
+    )
 
 
 def slit_sheet(n: int) -> Atlas:
@@ -75,9 +79,12 @@ def grid_graph(lines_x: Floats, lines_y: Floats, parts: int = 1, turn: float = 0
     S, L, R = [], [], []
 
     def add(ends: tuple, left: int, right: int) -> None:
-        way = [tuple(np.round(ends[0] + t * np.subtract(ends[1], ends[0]), 9)) for t in np.linspace(0, 1, parts + 1)]
+        way = [
+            tuple(np.round(ends[0] + t * np.subtract(ends[1], ends[0]), 9))
+            for t in np.linspace(0, 1, parts + 1)
+        ]
         ids = [number.setdefault(q, len(number)) for q in way]
-        S.extend(zip(ids[:-1], ids[1:], strict=True))
+        S.extend(pairwise(ids))
         L.extend([left] * parts)
         R.extend([right] * parts)
 
@@ -140,9 +147,13 @@ def midpoints_uv(a: Atlas, cut: CutMesh) -> Floats:
     return interpolate(a.uv, a.F_uv, cut.parent, barycentric(a.mesh.V, a.mesh.F, cut.parent, middle))
 
 
-def distance_to(outlines: Outlines, q: Floats) -> Floats:
-    lines = shapely.multilinestrings(shapely.linestrings(outlines.points[outlines.segments]))
-    return shapely.distance(shapely.points(q), lines)
+def clear_of(outlines: Outlines, q: Floats, mm: float) -> Bools:
+    """Tell which points of the plane are farther than this from all outlines."""
+    tree = shapely.STRtree(shapely.linestrings(outlines.points[outlines.segments]))
+    close, _ = tree.query(shapely.points(q), predicate="dwithin", distance=mm)
+    clear = np.ones(len(q), bool)
+    clear[close] = False
+    return clear
 
 
 def assert_sound(a: Atlas, cut: CutMesh) -> None:
