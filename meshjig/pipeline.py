@@ -11,10 +11,7 @@ from meshjig.charts import build_atlas
 from meshjig.check import judge
 from meshjig.check.interlock import interlock
 from meshjig.check.outer_gap import outer_gap
-from meshjig.cut.carry import carry_pieces
-from meshjig.cut.clearance import gap_outlines
-from meshjig.cut.curves import cut_curves
-from meshjig.cut.overlay import overlay
+from meshjig.cut import carry_pieces, cut_curves, gap_outlines, overlay
 from meshjig.errors import OptionError
 from meshjig.measure import face_areas, interpolate
 from meshjig.options import Options
@@ -131,7 +128,7 @@ def _refuse_too_small_tiles(tile: float, area: float, options: Options) -> None:
             hint=f"use less than {max(neck * tile - 0.1, 0):.2g} mm, or larger pieces",
         )
     raise OptionError(
-        f"pieces: tiles of {tile:.2g} mm are too small to be cut with a clearance of {options.clearance:g} mm",
+        f"pieces: tiles of {tile:.2g} mm are too small for a clearance of {options.clearance:g} mm",
         hint=f"use at most {max(int(area / smallest**2), 1)} pieces, or a larger size",
     )
 

@@ -22,7 +22,7 @@ class Edges(NamedTuple):
     E: Ints  # (e, 2), lower vertex first, in lexicographic order
     edge_of_halfedge: Ints  # (3 m,)
     twin: Ints  # (3 m,), the half-edge on the other side; itself on a border or a non-manifold edge
-    count: Ints  # (e,), faces at the edge
+    n_faces: Ints  # (e,), faces at the edge
 
 
 def next_halfedge(h: Ints) -> Ints:
@@ -129,9 +129,9 @@ def is_disc(F: Ints) -> bool:
         return False
     G, kept = compact(F)
     e = edges(G)
-    if e.count.max() > 2 or len(kept) - len(e.E) + len(G) != 1:
+    if e.n_faces.max() > 2 or len(kept) - len(e.E) + len(G) != 1:
         return False
-    border = e.E[e.count == 1]
+    border = e.E[e.n_faces == 1]
     if np.bincount(border.ravel(), minlength=len(kept)).max(initial=0) > 2:
         return False
     return components(G)[0] == 1

@@ -117,7 +117,7 @@ class RegionGraph:
     """Regions of a cut surface and the borders between them."""
 
     area: Floats  # (r,), mm2
-    pairs: Ints  # (b, 2), regions on both sides of a border, lower first; a pair may stand twice, as seam and cut
+    pairs: Ints  # (b, 2), regions on both sides of a border, lower first; a pair may stand twice: as seam, as cut
     length: Floats  # (b,), mm
     seam: Bools  # (b,), the border is a chart border
 

@@ -59,13 +59,10 @@ def _against_peer(mesh: Path, peer: Path, runs: int) -> None:
     )
     for stage, seconds in mine["stages"].items():
         print(f"  {stage:16} {seconds:7.2f} s")
-    print(
-        f"  {'total':16} {mine['total']:7.2f} s   peer {other['wall_s']:.2f} s   ratio {mine['total'] / other['wall_s']:.2f}"
-    )
-    print(
-        f"  {'without charts':16} {rest:7.2f} s   peer {other['wall_s']:.2f} s   ratio {rest / other['wall_s']:.2f}"
-    )
-    print(f"  beside that: " + ", ".join(f"{k} {v:.2f} s" for k, v in mine["beside"].items()), flush=True)
+    for what, seconds in (("total", mine["total"]), ("without charts", rest)):
+        ratio = seconds / other["wall_s"]
+        print(f"  {what:16} {seconds:7.2f} s   peer {other['wall_s']:.2f} s   ratio {ratio:.2f}")
+    print("  beside that: " + ", ".join(f"{k} {v:.2f} s" for k, v in mine["beside"].items()), flush=True)
 
 
 def _write_clean(mesh: Path, clean: Path) -> None:

@@ -1,6 +1,6 @@
 """Make a puzzle of every mesh in a folder and write down what came of it, as JSON.
 
-    scripts/corpus.py --corpus DIR [--out report.json] [--against older.json] [--keep DIR] [-- OPTIONS OF make]
+    scripts/corpus.py --corpus DIR [--out FILE] [--against OLDER] [--keep DIR] [-- OPTIONS OF make]
 
 Each mesh runs in a process of its own. Two runs can be compared. With --slicer, `prusa-slicer --info`
 reads every file that was written; with or without it, lib3mf reads the 3MF in strict mode.

@@ -2,6 +2,7 @@
 
 from meshjig.charts.atlas import build_atlas
 from meshjig.charts.lift import curve, lift
+from meshjig.charts.mapped import MappedAtlas
 from meshjig.charts.trimming import TrimmingCurve, trimming_curves
 
-__all__ = ["TrimmingCurve", "build_atlas", "curve", "lift", "trimming_curves"]
+__all__ = ["MappedAtlas", "TrimmingCurve", "build_atlas", "curve", "lift", "trimming_curves"]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from meshjig.charts.flatten import Method, border_is_simple, flatten, is_unflipped, unit_stretch
 from meshjig.charts.layout import lie_along, shelves
+from meshjig.charts.mapped import MappedAtlas
 from meshjig.charts.part import part
 from meshjig.charts.proxy import proxy
 from meshjig.charts.quality import quality
@@ -37,7 +38,7 @@ def build_atlas(
     seed: int = 0,
     margin: float = 5.0,
     log: logging.Logger | None = None,
-) -> Atlas:
+) -> MappedAtlas:
     """Cut a mesh into few, large, nearly flat charts and lay them out in one plane.
 
     Parameters
@@ -52,7 +53,7 @@ def build_atlas(
 
     Returns
     -------
-    Atlas
+    MappedAtlas
         Every chart is a disc, no face is mirrored, and the mean stretch of each chart is 1. Its
         facts are those of quality(), and the method.
 
@@ -67,7 +68,7 @@ def build_atlas(
         raise OptionError(
             f"charts: unknown method {method!r}", hint="use " + ", ".join(get_args(AtlasMethod))
         )
-    if not len(mesh.F) or edges(mesh.F).count.max() > 2:
+    if not len(mesh.F) or edges(mesh.F).n_faces.max() > 2:
         raise ChartError("the mesh is empty or not manifold", hint="repair it first")
     flattening: Method = "slim" if method == "auto" or method == "xatlas" else method
     chooser = unwrap if method == "xatlas" else segment
@@ -82,7 +83,7 @@ def build_atlas(
     facts: dict[str, Any] = {**quality(atlas), "method": "xatlas" if method == "xatlas" else flattening}
     if log is not None:
         log.info("charts: %s", facts)
-    return Atlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts)
+    return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts)
 
 
 def _charts(V: Floats, F: Ints, method: Method, seed: int, choose: Callable[..., Ints]) -> list[Chart]:

@@ -40,7 +40,7 @@ class Bend:
         self._curvature = 2 * np.pi - np.bincount(F.ravel(), angles.ravel(), len(V))
         self._n_faces = np.bincount(F.ravel(), minlength=len(V))
         e = edges(F)
-        self._n_faces[e.E[e.count == 1].ravel()] = -1  # a border vertex is inner to no region
+        self._n_faces[e.E[e.n_faces == 1].ravel()] = -1  # a border vertex is inner to no region
 
     def spread(self, faces: Ints) -> float:
         """Give the spread of log scale over the middle 99 % of the area of some faces.

@@ -57,7 +57,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 6000) -> tuple[Floats, Ints]:
     )
     light = meshes.current_mesh()
     G, origin = fans(np.ascontiguousarray(light.face_matrix(), np.int64))
-    if not len(G) or edges(G).count.max() > 2:
+    if not len(G) or edges(G).n_faces.max() > 2:
         return V, F
     return np.ascontiguousarray(light.vertex_matrix()[origin]), G
 

@@ -86,7 +86,7 @@ def _neighbours(F: Ints, n: int) -> tuple[Any, Any, NDArray[np.bool_]]:
     from scipy.sparse import coo_matrix
 
     e = edges(F)
-    rim = e.E[e.count == 1]
+    rim = e.E[e.n_faces == 1]
     on_border = np.zeros(n, bool)
     on_border[rim.ravel()] = True
     every = coo_matrix((np.ones(len(e.E)), e.E.T), shape=(n, n))

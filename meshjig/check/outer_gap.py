@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.topology import border_halfedges, next_halfedge
+from meshjig.topology import edges, next_halfedge
 from meshjig.types import Floats, Ints
 
 __all__ = ["outer_gap"]
@@ -18,7 +18,7 @@ def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict
     """Measure the distance in space from the border of each piece to the nearest border of another.
 
     The border is sampled at up to 40,000 places; the distance of each is exact for the edges near it.
-    Samples without another piece within three clearances, as on an open border, don't count.
+    Samples on the open border of the surface, or without another piece within three clearances, don't count.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict
     """
     from scipy.spatial import cKDTree
 
-    kept = piece_of_face >= 0
-    G, piece = F[kept], piece_of_face[kept]
-    a, b, owner = _borders(G, piece, len(V))
+    a, b, owner = _borders(F, piece_of_face)
+    if clearance <= 0 or not len(a):
+        return dict.fromkeys(("min", "p1", "median", "within_10pct"))
     x, edge = _samples(V, a, b, SPACING * clearance)
     stride = 1 + len(x) // MOST_SAMPLES
     x, edge = x[::stride], edge[::stride]
@@ -56,19 +56,22 @@ def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict
         distance[real[closer]] = d[closer]
         found[real[closer]] = other[closer]
     d = distance[found >= 0]
-    if not len(d) or clearance <= 0:
+    if not len(d):
         return dict.fromkeys(("min", "p1", "median", "within_10pct"))
     low, median = np.percentile(d, [1, 50])
     within = float((np.abs(d / clearance - 1) <= 0.1).mean())
     return {"min": float(d.min()), "p1": float(low), "median": float(median), "within_10pct": within}
 
 
-def _borders(F: Ints, piece: Ints, n: int) -> tuple[Ints, Ints, Ints]:
-    """Give the border edges of all pieces: both ends and the piece."""
-    separate, corner = np.unique(piece[:, None] * np.int64(n) + F, return_inverse=True)
-    h = border_halfedges(corner.reshape(-1, 3))
-    corners = separate[corner.ravel()] % n
-    return corners[h], corners[next_halfedge(h)], piece[h // 3]
+def _borders(F: Ints, piece: Ints) -> tuple[Ints, Ints, Ints]:
+    """Give the edges where pieces end at a gap or at each other: both ends and the piece.
+
+    The open border of the surface is none: nothing lies across.
+    """
+    twin = edges(F).twin
+    own, other = np.repeat(piece, 3), piece[twin // 3]
+    h = np.flatnonzero((own >= 0) & (own != other))
+    return F.ravel()[h], F.ravel()[next_halfedge(h)], own[h]
 
 
 def _samples(V: Floats, a: Ints, b: Ints, spacing: float) -> tuple[Floats, Ints]:

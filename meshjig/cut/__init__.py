@@ -1,5 +1,8 @@
-"""Cut a surface along planar outlines, exactly and conformingly."""
+"""Cut a surface along planar outlines, exactly and conformingly; lay out the gap."""
 
+from meshjig.cut.carry import carry_pieces
+from meshjig.cut.clearance import gap_outlines
+from meshjig.cut.curves import cut_curves
 from meshjig.cut.overlay import overlay
 
-__all__ = ["overlay"]
+__all__ = ["carry_pieces", "cut_curves", "gap_outlines", "overlay"]

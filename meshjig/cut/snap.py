@@ -69,21 +69,16 @@ def snap(uv: Floats, outlines: Outlines) -> tuple[Ints, Graph]:
     # the origin is a grid line, so that where all charts lie does not change how they are rounded
     origin = np.floor(low * scale / STEP) * STEP
     U = (np.rint(uv * scale) - origin).astype(np.int64)
-    P = (np.rint(outlines.points * scale / STEP) - origin / STEP).astype(np.int64)
+    P = (np.rint(outlines.points * scale) - origin).astype(np.int64)
     return U, _graph(P, outlines)
 
 
 def _graph(P: Ints, outlines: Outlines) -> Graph:
     """Merge what coincides on the outlines' own grid."""
-    _, first, number = np.unique((P[:, 0] << 31) | P[:, 1], return_index=True, return_inverse=True)
-    number = number.astype(np.int64)
-    ends = number[outlines.segments]
-    long = np.flatnonzero(ends[:, 0] != ends[:, 1])
-    points, S, part = noded(P[first], ends[long])
-    source = long[part]
-    span = _span(points, S, points[ends[source]])
-    graph = Graph(points * STEP, S, outlines.left[source], outlines.right[source], source, span, number)
-    graph = _single(graph)
+    points, S, source, number = noded(P, outlines.segments, STEP)
+    points = points * STEP
+    span = _span(points, S, points[number[outlines.segments[source]]])
+    graph = _single(Graph(points, S, outlines.left[source], outlines.right[source], source, span, number))
     loose_before = np.bincount(outlines.segments.ravel(), minlength=len(P)) == 1
     return graph.take(~_spurs(graph, number[loose_before]))
 

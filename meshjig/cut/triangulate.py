@@ -7,11 +7,12 @@ import numpy as np
 from meshjig.cut.cycles import Cycles
 from meshjig.cut.ears import clip_ears
 from meshjig.cut.places import Places
-from meshjig.cut.untangle import parts_beside, untangled
+from meshjig.cut.untangle import moved, parts_beside, spread
 from meshjig.types import Floats, Ints
 
 __all__ = ["Filling", "fill"]
 
+SHARES = (2.0**-12, 2.0**-9, 2.0**-6, 2.0**-3, 1.0)  # of the way that tangled corners go to their goal
 IDEAL = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
 
 
@@ -45,13 +46,16 @@ def fill(places: Places, parts: Cycles, frames: Floats) -> tuple[Places, Filling
     T, part, failed = _clipped(places, parts, frames, np.arange(len(parts.size)))
     n_untangled = len(failed)
     for all_in_face in (False, True):
-        if not len(failed):
-            break
-        places = untangled(places, parts, failed, all_in_face=all_in_face)
-        again = parts_beside(places, parts, failed)
-        kept = ~np.isin(part, again)
-        new, new_part, failed = _clipped(places, parts, frames, again)
-        T, part = np.concatenate([T[kept], new]), np.concatenate([part[kept], new_part])
+        goal = spread(places, parts, failed, all_in_face=all_in_face)
+        start = places
+        for share in SHARES:
+            if not len(failed):
+                break
+            again = parts_beside(places, parts, failed)
+            places = moved(start, goal, share, of=places, parts=parts, some=again)
+            new, new_part, failed = _clipped(places, parts, frames, again)
+            kept = ~np.isin(part, again)
+            T, part = np.concatenate([T[kept], new]), np.concatenate([part[kept], new_part])
     fan, fan_part, centre = _fans(places, parts, failed)
     return places, Filling(
         np.concatenate([T, fan]), np.concatenate([part, fan_part]), failed, centre, n_untangled

@@ -15,7 +15,7 @@ from meshjig.cut.cycles import Cycles
 from meshjig.cut.places import Places
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["parts_beside", "untangled"]
+__all__ = ["moved", "parts_beside", "spread"]
 
 NEAR = 1e-9  # barycentric; nodes are not taken for closer
 
@@ -26,7 +26,15 @@ def parts_beside(places: Places, parts: Cycles, some: Ints) -> Ints:
     return np.flatnonzero(np.isin(row, row[some]))
 
 
-def untangled(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool) -> Places:
+def moved(start: Places, goal: Floats, share: float, *, of: Places, parts: Cycles, some: Ints) -> Places:
+    """Move the corners of some parts a share of the way from start to their goal."""
+    here, _, _ = _sides(parts, some)
+    bary = of.bary.copy()
+    bary[here] = start.bary[here] + share * (goal[here] - start.bary[here])
+    return of._replace(bary=bary)
+
+
+def spread(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool) -> Floats:
     """Put landings on tangled parts, or all in their faces, into the middle of their neighbours.
 
     Joined to a centre, each part becomes a fan of triangles; when every free corner lies in the mean
@@ -35,8 +43,17 @@ def untangled(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool
 
     Parameters
     ----------
+    places : Places
+    parts : Cycles
     tangled : (t,) int64, parts
+    all_in_face : bool
+
+    Returns
+    -------
+    bary : (h, 3) float64, for the starts of all half-edges
     """
+    if not len(tangled):
+        return places.bary
     around = parts_beside(places, parts, tangled)
     here, after, part = _sides(parts, around)
     v, w = places.vertex[here], places.vertex[after]
@@ -57,9 +74,9 @@ def untangled(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool
     free = np.append(freed, np.ones(len(parts.size), bool))[nodes]
     at[free] = _balanced(ends, at, free)
     bary = places.bary.copy()
-    moved = here[freed[v]]
-    bary[moved] = at[np.searchsorted(nodes, places.vertex[moved])]
-    return places._replace(bary=bary)
+    free_here = freed[v]
+    bary[here[free_here]] = at[corner[free_here]]
+    return bary
 
 
 def _sides(parts: Cycles, some: Ints) -> tuple[Ints, Ints, Ints]:

@@ -55,7 +55,7 @@ def _without_degenerate(F: Ints) -> Ints:
 
 
 def _is_closed(F: Ints) -> bool:
-    return bool((edges(F).count == 2).all())
+    return bool((edges(F).n_faces == 2).all())
 
 
 def _first_equal(V: Floats) -> Ints:
@@ -82,7 +82,7 @@ def _without_short_edges(V: Floats, F: Ints) -> Ints:
         e = edges(F)
         length = _lengths(V, *e.E.T)
         short = np.flatnonzero(length < _SHORTEST)
-        short = short[_collapsible(e.E, e.count, short)]
+        short = short[_collapsible(e.E, e.n_faces, short)]
         if not len(short):
             break
         short = short[np.argsort(length[short], kind="stable")]

@@ -33,7 +33,7 @@ def is_clean(F: Ints, n: int) -> bool:
     is used, by one fan.
     """
     e = edges(F)
-    if e.count.max(initial=0) > 2:
+    if e.n_faces.max(initial=0) > 2:
         return False
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     if (F.ravel()[h] == F.ravel()[e.twin[h]]).any():
@@ -60,14 +60,14 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
     Sheets
     """
     e = edges(F)
-    n_edges = int((e.count > 2).sum())
+    n_edges = int((e.n_faces > 2).sum())
     n = len(V)
     for _ in range(_ROUNDS):
         twin = _twins(V, F, e)
         F, origin = _fans(F, twin)
         V = V[origin]
         e = edges(F)
-        if e.count.max(initial=0) <= 2:
+        if e.n_faces.max(initial=0) <= 2:
             break
         V, F = _with_middles(V, F, e, twin)
         e = edges(F)
@@ -77,7 +77,7 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
 def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
     """Give each half-edge's twin, also where more than two faces meet; itself where there is none."""
     twin = e.twin.copy()
-    h = np.flatnonzero(e.count[e.edge_of_halfedge] > 2)
+    h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] > 2)
     if not len(h):
         return twin
     edge = e.edge_of_halfedge[h]
@@ -120,7 +120,7 @@ def _fans(F: Ints, twin: Ints) -> tuple[Ints, Ints]:
 
 def _with_middles(V: Floats, F: Ints, e: Edges, twin: Ints) -> tuple[Floats, Ints]:
     """Split crowded edges, in every sheet but the first of each, by a vertex of the sheet's own."""
-    h = np.flatnonzero(e.count[e.edge_of_halfedge] > 2)
+    h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] > 2)
     sheet = np.minimum(h, twin[h])
     first = np.full(len(e.E), len(twin))
     np.minimum.at(first, e.edge_of_halfedge[h], sheet)

@@ -34,7 +34,7 @@ def weld(V: Floats, F: Ints, tolerance: float) -> tuple[Floats, Ints, int]:
     e = edges(F)
     length = np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1)
     pairs = e.E[(length <= tolerance) & (e.E[:, 0] != e.E[:, 1])]
-    border = np.unique(e.E[e.count != 2])
+    border = np.unique(e.E[e.n_faces != 2])
     if len(border):
         pairs = np.concatenate([pairs, _close_pairs(V, border, tolerance)])
     if not len(pairs):
@@ -108,7 +108,7 @@ def flip_flat(V: Floats, F: Ints, height: float) -> tuple[Ints, int]:
         flat, longest = _flat(V, F, height)
         e = edges(F)
         h = 3 * np.flatnonzero(flat) + longest[flat]
-        border = e.count[e.edge_of_halfedge[h]] == 1
+        border = e.n_faces[e.edge_of_halfedge[h]] == 1
         dropped = h[border] // 3
         chosen = _independent(V, F, h[~border], e.twin, e.E, flat)
         if not len(chosen) and not len(dropped):

@@ -11,7 +11,7 @@ __all__ = ["inward_room", "thin_share"]
 
 _SHARE = 0.45  # of the way through the model; two walls meet at half
 _TILT = np.deg2rad(35.0)
-_OPPOSITE = -0.35  # cosine between normals: a tilted ray counts when it ends on a surface that faces back
+_OPPOSITE = -0.7  # cosine between normals: a tilted ray counts when it ends on a surface that faces back
 
 
 def inward_room(V: Floats, F: Ints, d: Floats) -> Floats:

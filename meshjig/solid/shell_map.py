@@ -12,6 +12,7 @@ from meshjig.solid.directions import smooth_normals
 from meshjig.solid.embedding import unfold
 from meshjig.solid.local_thickness import inward_room, thin_share
 from meshjig.solid.smoothing import Smoother
+from meshjig.solid.surface_distance import SurfaceDistance
 from meshjig.topology import border_halfedges
 from meshjig.types import Floats, Ints
 
@@ -20,6 +21,7 @@ __all__ = ["check_thickness", "displacement"]
 _POSITION_SCALE = 0.3  # of the thickness: bumps below it are not carried to the inner sheet
 _LEAST_ROOM = 0.15  # mm; a wall is not planned thinner
 _CORRECTIONS = 2
+MITER = True
 _THIN = 0.8  # of the thickness
 
 
@@ -59,8 +61,10 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
     check_thickness(V, F, thickness, room)
     depth = _depth(F, thickness, room, smoother)
     D = _drift(V, depth, thickness, smoother) - depth[:, None] * d
+    surface = SurfaceDistance(V, F)
     for _ in range(_CORRECTIONS):
-        D = _corrected(V, F, D, d, depth, room, thickness, smoother)
+        distance = surface.behind_planes(V + D) if MITER else surface.nearest(V + D)[0]
+        D = _corrected(V, F, D, d, depth, room, thickness, smoother, distance)
     D, folds = unfold(V, F, D, thickness)
     length = np.linalg.norm(D, axis=1)
     thin = thin_share(V, F, length < _THIN * thickness)
@@ -125,19 +129,10 @@ def _drift(V: Floats, depth: Floats, thickness: float, smoother: Smoother) -> Fl
 
 
 def _corrected(
-    V: Floats,
-    F: Ints,
-    D: Floats,
-    d: Floats,
-    depth: Floats,
-    room: Floats,
-    thickness: float,
-    smoother: Smoother,
+    V: Floats, F: Ints, D: Floats, d: Floats, depth: Floats, room: Floats, thickness: float, smoother: Smoother,
+    distance: Floats,
 ) -> Floats:
     """Move the inner sheet along d by what its true distance to the surface lacks."""
-    import igl
-
-    distance = np.sqrt(igl.point_mesh_squared_distance(V + D, V, F)[0])
     lack = np.clip(depth - distance, -0.3 * thickness, 0.4 * thickness)
     D = D - smoother(lack, _POSITION_SCALE * thickness)[:, None] * d
     beyond = -np.einsum("ij,ij->i", D, d) - np.maximum(room, _LEAST_ROOM)

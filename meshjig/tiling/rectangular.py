@@ -1,5 +1,7 @@
 """The rectangular knob: a square-shouldered dovetail."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from meshjig.tiling.template import Template
@@ -22,5 +24,5 @@ def rectangular(n: int) -> Template:
         Neck 0.13, head 0.25, height 0.20 of the edge.
     """
     t = np.linspace(0, 1, n, endpoint=False)[:, None]
-    sides = [a + (b - a) * t for a, b in zip(_CORNERS[:-1], _CORNERS[1:], strict=True)]
+    sides = [a + (b - a) * t for a, b in pairwise(_CORNERS)]
     return Template(np.vstack([*sides, _CORNERS[-1:]]))

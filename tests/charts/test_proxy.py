@@ -13,7 +13,7 @@ def test_topology_survives_and_the_surface_stays_near(maker):
     W, G = proxy(V, F, 1000)
     assert 900 < len(G) <= 1001
     before, after = edges(F), edges(G)
-    assert after.count.max() <= 2
+    assert after.n_faces.max() <= 2
     assert components(G)[0] == 1
     assert len(W) - len(after.E) + len(G) == len(V) - len(before.E) + len(F)
     squared, _, _ = igl.point_mesh_squared_distance(V, W, G)

@@ -19,7 +19,7 @@ def test_speckled_labels_come_out_as_whole_regions_without_pinches(mesh):
         G = mesh.F[label == k]
         assert components(G)[0] == 1
         e = edges(G)
-        rim = e.E[e.count == 1]
+        rim = e.E[e.n_faces == 1]
         assert np.bincount(rim.ravel()).max() == 2
 
 

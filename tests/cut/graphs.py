@@ -168,7 +168,7 @@ def assert_sound(a: Atlas, cut: CutMesh) -> None:
     assert turned.min() > -1e-12
 
     E = edges(cut.F)
-    assert E.count.max() <= 2
+    assert E.n_faces.max() <= 2
     h = np.arange(len(E.twin))
     inner = E.twin != h
     assert (cut.F.ravel()[h[inner]] != cut.F.ravel()[E.twin[inner]]).all()
@@ -196,7 +196,7 @@ def assert_sound(a: Atlas, cut: CutMesh) -> None:
 
 def border_length(V: Floats, F: Ints) -> float:
     E = edges(F)
-    border = E.E[E.count == 1]
+    border = E.E[E.n_faces == 1]
     return float(np.linalg.norm(V[border[:, 0]] - V[border[:, 1]], axis=1).sum())
 
 

@@ -30,7 +30,8 @@ def test_coordinates_stay_below_the_limit(extent):
 
 def test_short_segments_vanish_and_the_curve_stays_closed():
     a, b, c, d = square(50, 50, 10)
-    knots = np.array([a + [1e-6, 0], b, c, d, d + [0, 1e-6], a])
+    tiny = np.array([0, 1e-6])
+    knots = np.array([a + tiny, b, c, d, d + tiny, a])
     _, graph = snap(UV, loops(knots, labels=[1]))
     assert len(graph.segments) == 4
     assert (np.bincount(graph.segments.ravel(), minlength=4)[np.unique(graph.segments)] == 2).all()

@@ -24,12 +24,12 @@ from tests.strategies import meshes
 
 def topology(F):
     e = edges(F)
-    return len(np.unique(F)) - len(e.E) + len(F), int((e.count > 2).sum())
+    return len(np.unique(F)) - len(e.E) + len(F), int((e.n_faces > 2).sum())
 
 
 def border(V, F):
     e = edges(F)
-    ends = V[e.E[e.count == 1]]
+    ends = V[e.E[e.n_faces == 1]]
     return ends, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 

@@ -1,0 +1,81 @@
+"""How far points under a surface are from it, as the crow flies or from the planes of its faces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.measure import area_vectors, barycentric, unit
+from meshjig.types import Floats, Ints
+
+__all__ = ["SurfaceDistance"]
+
+_ON_RIM = 1e-6  # a barycentric coordinate below it puts a point on the opposite edge
+
+
+class SurfaceDistance:
+    """Distances to a mesh, many times over: its tree of boxes is built once.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, oriented; points are asked for on its back
+    """
+
+    def __init__(self, V: Floats, F: Ints) -> None:
+        import igl
+
+        self._V, self._F = V, F
+        self._tree = igl.AABB()
+        self._tree.init(V, F)
+
+    def nearest(self, points: Floats) -> tuple[Floats, Ints, Floats]:
+        """Find the nearest points of the surface.
+
+        Returns
+        -------
+        distance : (k,) float64, mm
+        face : (k,) int64
+        foot : (k, 3) float64, mm
+        """
+        squared, face, foot = self._tree.squared_distance(self._V, self._F, points)
+        return np.sqrt(squared), face, foot
+
+    def behind_planes(self, points: Floats, cap: float = 2.0) -> Floats:
+        """Measure how deep points lie under the planes that meet where the surface is nearest.
+
+        Where all points of one depth form a sheet, it has sharp creases: a mitered join. It equals the
+        distance but under reentrant creases and corners, where the distance gives a rounded join.
+
+        Parameters
+        ----------
+        points : (k, 3) float64, mm
+        cap : float, the longest miter: no depth is less than the distance over it
+
+        Returns
+        -------
+        (k,) float64, mm: the largest depth under one of the planes
+        """
+        distance, face, foot = self.nearest(points)
+        inside = barycentric(self._V, self._F, face, foot) > _ON_RIM
+        rim = np.flatnonzero(~inside.all(1))
+        depth = distance.copy()
+        if len(rim):
+            depth[rim] = np.maximum(distance[rim] / cap, self._deepest(points, rim, face, inside))
+        return np.minimum(depth, distance)
+
+    def _deepest(self, points: Floats, rim: Ints, face: Ints, inside: Floats) -> Floats:
+        """Give the depth of points[rim] under the faces that share the edge or corner they are nearest to."""
+        corner_face = np.argsort(self._F.ravel(), kind="stable") // 3
+        start = np.concatenate([[0], np.cumsum(np.bincount(self._F.ravel(), minlength=len(self._V)))])
+        normal = unit(area_vectors(self._V, self._F))
+        nearest_corner = inside[rim].argmax(1)
+        v = self._F[face[rim], nearest_corner]
+        count = start[v + 1] - start[v]
+        owner = np.repeat(np.arange(len(rim)), count)
+        first = np.cumsum(count) - count
+        around = corner_face[np.arange(count.sum()) - np.repeat(first - start[v], count)]
+        edge = inside[rim].sum(1) == 2
+        other = self._F[face[rim], 2 - inside[rim][:, ::-1].argmax(1)]
+        shares = (self._F[around] == other[owner][:, None]).any(1) | ~edge[owner]
+        height = np.einsum("ij,ij->i", self._V[v[owner]] - points[rim[owner]], normal[around])
+        return np.maximum.reduceat(np.where(shares, height, -np.inf), first)

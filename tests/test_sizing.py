@@ -1,0 +1,42 @@
+"""Tiles are sized so that the number of pieces comes out as asked."""
+
+import numpy as np
+import pytest
+
+from meshjig.charts import build_atlas
+from meshjig.cut.overlay import overlay
+from meshjig.sizing import choose_tiles
+from meshjig.stitch import region_graph, stitch
+from meshjig.tiling import tile_charts
+from meshjig.types import Mesh
+from tests.meshes import half_sphere, sphere, torus
+
+
+@pytest.fixture(scope="module", params=[sphere, torus, half_sphere], ids=lambda shape: shape.__name__)
+def atlas(request):
+    return build_atlas(Mesh(*request.param(4000)))
+
+
+@pytest.mark.parametrize("pieces", [25, 60, 150])
+def test_expected_and_real_numbers_agree_with_what_was_asked(atlas, pieces):
+    choice = choose_tiles(atlas, pieces, 0.3)
+    outlines, _ = tile_charts(atlas, choice.size, shift=choice.shift)
+    real = stitch(region_graph(overlay(atlas, outlines)), 0.3, choice.size**2).n_pieces
+    assert choice.expected == pytest.approx(pieces, rel=0.08)
+    assert real == pytest.approx(choice.expected, rel=0.1, abs=2)
+
+
+def test_a_given_size_is_kept(atlas):
+    assert choose_tiles(atlas, 100, 0.3, size=17.5).size == 17.5
+
+
+def test_regions_cover_the_surface(atlas):
+    outlines, _ = tile_charts(atlas, 20.0)
+    cut = overlay(atlas, outlines)
+    graph = region_graph(cut)
+    V, F = atlas.mesh.V, atlas.mesh.F
+    area = np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1).sum() / 2
+    assert graph.area.sum() == pytest.approx(area)
+    assert (graph.pairs[:, 0] < graph.pairs[:, 1]).all()
+    cuts = np.linalg.norm(np.diff(cut.V[cut.cuts], axis=1)[:, 0], axis=1).sum()
+    assert graph.length[~graph.seam].sum() == pytest.approx(cuts)
