@@ -117,7 +117,7 @@ class RegionGraph:
     """Regions of a cut surface and the borders between them."""
 
     area: Floats  # (r,), mm2
-    pairs: Ints  # (b, 2), regions on both sides of a border, lower first; a pair may stand twice: as seam, as cut
+    pairs: Ints  # (b, 2), the regions on both sides, lower first; twice where they meet at seam and cut
     length: Floats  # (b,), mm
     seam: Bools  # (b,), the border is a chart border
 
