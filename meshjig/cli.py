@@ -66,8 +66,12 @@ def make(
     thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
     clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
     min_neck: Annotated[float | None, _flag("min_neck", "--min-neck")] = None,
+    min_wall: Annotated[float | None, _flag("min_wall", "--min-wall")] = None,
     clearance_method: Annotated[str | None, _flag("clearance_method", "--clearance-method")] = None,
+    join: Annotated[str | None, _flag("join", "--join")] = None,
+    side: Annotated[str | None, _flag("side", "--side")] = None,
     process: Annotated[str | None, _flag("process", "--process")] = None,
+    resurface: Annotated[bool | None, _flag("resurface", "--resurface/--no-resurface")] = None,
     layout: Annotated[str | None, _flag("layout", "--layout")] = None,
     tile: Annotated[str | None, _flag("tile", "--tile")] = None,
     charts: Annotated[str | None, _flag("charts", "--charts")] = None,
@@ -121,18 +125,28 @@ def check(
     paths: Annotated[list[Path], typer.Argument(metavar="DIR|FILES", help="a folder of pieces, or files")],
     thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
     clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
+    min_wall: Annotated[float | None, _flag("min_wall", "--min-wall")] = None,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
-    """Judge finished pieces by their files alone, whatever made them."""
+    """Judge finished pieces by their files, whatever made them.
+
+    Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
+    """
     with _sentences(verbose, quiet):
         from meshjig.check import judge
+        from meshjig.output.asked import read_asked
         from meshjig.output.read import read_pieces
 
-        verdict = judge(read_pieces(paths), thickness=thickness, clearance=clearance)
-        result = {"checks": verdict.checks, "failures": verdict.failures, "ok": verdict.ok}
-        print(json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks))
+        pieces = read_pieces(paths)
+        asked = read_asked(paths, [name for name, _, _ in pieces])
+        flags = {"thickness": thickness, "clearance": clearance, "min_wall": min_wall}
+        flags = {name: value for name, value in flags.items() if value is not None}
+        verdict = judge(pieces, **(asked._asdict() | flags))
+        result = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
+        result |= {"exempt": verdict.exempt, "ok": verdict.ok}
+        print(json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks | {"names": verdict.named}))
     if not verdict.ok:
         _tell_broken(verdict.failures)
         raise typer.Exit(BROKEN_PROMISE)
@@ -148,6 +162,8 @@ def _options(config: Path | None, flags: dict[str, Any]) -> Options:
     try:
         if config is not None:
             given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
+            if isinstance(given.get("process"), dict):  # [process.NAME], chosen by --process
+                given["processes"] = given.pop("process")
         given.update({name: value for name, value in flags.items() if value is not None})
         return Options.of(**given)
     except OptionError as error:

@@ -10,17 +10,21 @@ from meshjig.errors import OptionError
 
 __all__ = ["PROCESSES", "Options"]
 
-PROCESSES: dict[str, dict[str, float]] = {
-    "fdm": {"thickness": 2.0, "clearance": 0.2, "min_neck": 2.0},
-    "sla": {"thickness": 2.0, "clearance": 0.15, "min_neck": 0.5},
-    "polyjet": {"thickness": 2.5, "clearance": 0.2, "min_neck": 0.5},
+Preset = dict[str, Any]
+
+PROCESSES: dict[str, Preset] = {
+    "fdm": {"thickness": 2.0, "clearance": 0.2, "min_neck": 2.0, "min_wall": 1.2},
+    "sla": {"thickness": 2.0, "clearance": 0.15, "min_neck": 0.5, "min_wall": 0.8},
+    "polyjet": {"thickness": 2.5, "clearance": 0.2, "min_neck": 0.5, "min_wall": 0.8},
+    "foam": {"thickness": 7.0, "clearance": 0.2, "min_neck": 3.0, "min_wall": 3.0},
 }
 
 
 class Options(BaseModel):
     """How a puzzle is made.
 
-    Lengths are in mm. Thickness, clearance and min_neck are the process's where they are not given.
+    Lengths are in mm. Thickness, clearance, min_neck and min_wall are the process's where they are not
+    given. What a process of one's own leaves out is as for fdm.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -36,8 +40,14 @@ class Options(BaseModel):
     thickness: FiniteFloat = Field(2.0, gt=0, description="thickness of the pieces, mm")
     clearance: FiniteFloat = Field(0.2, ge=0, description="whole gap between two pieces, mm")
     min_neck: FiniteFloat = Field(2.0, ge=0, description="least width of a knob's neck, mm")
-    clearance_method: Literal["stretch", "domain"] = Field("stretch", description="how the gap is laid out")
-    process: Literal["fdm", "sla", "polyjet"] = Field("fdm", description="printing process, for defaults")
+    min_wall: FiniteFloat = Field(1.2, ge=0, description="least thickness that prints well, mm")
+    clearance_method: Literal["stretch", "domain", "solid"] = Field(
+        "stretch", description="how the gap is made: in the plane, or cut from the solids"
+    )
+    join: Literal["miter", "round"] = Field("miter", description="inner sheet along creases")
+    side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
+    process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
+    resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
     layout: Literal["tiles"] = Field("tiles", description="how the surface is divided")
     tile: Literal["classic", "rectangular"] = Field("classic", description="shape of the knobs")
     charts: Literal["auto", "lscm", "arap", "slim", "xatlas"] = Field(
@@ -63,13 +73,21 @@ class Options(BaseModel):
         given = {k: v for k, v in given.items() if v is not None}
         if isinstance(given.get("format"), str):
             given["format"] = tuple(part.strip() for part in given["format"].split(",") if part.strip())
+        known = PROCESSES | _own_processes(given.pop("processes", {}))
         process = given.get("process", "fdm")
-        preset = PROCESSES.get(process, {}) if isinstance(process, str) else {}
-        return {**preset, **given}
+        if not isinstance(process, str) or process not in known:
+            raise ValueError(f"process: {process!r} is not known; known are {', '.join(known)}")
+        return {**known[process], **given}
 
     @classmethod
     def of(cls, **given: Any) -> Options:
         """Make options from keywords.
+
+        Parameters
+        ----------
+        **given
+            The fields; and ``processes``, a dict of processes of one's own: name to a dict with any of
+            thickness, clearance, min_neck and min_wall.
 
         Raises
         ------
@@ -80,7 +98,22 @@ class Options(BaseModel):
             return cls(**given)
         except ValidationError as error:
             first = error.errors()[0]
-            name = ".".join(str(part) for part in first["loc"][:1]) or "options"
-            raise OptionError(
-                f"{name.replace('_', '-')}: {first['msg'][:1].lower()}{first['msg'][1:]}"
-            ) from None
+            says = first["msg"].removeprefix("Value error, ")
+            if not first["loc"]:
+                raise OptionError(says) from None
+            name = str(first["loc"][0]).replace("_", "-")
+            raise OptionError(f"{name}: {says[:1].lower()}{says[1:]}") from None
+
+
+def _own_processes(tables: Any) -> dict[str, Preset]:
+    """Give a user's processes, after checking that they are such."""
+    keys = list(PROCESSES["fdm"])
+    if not isinstance(tables, dict) or not all(isinstance(table, dict) for table in tables.values()):
+        raise ValueError(f"processes: each is a table with any of {', '.join(keys)}")
+    own = {
+        name: {key.replace("-", "_"): value for key, value in table.items()} for name, table in tables.items()
+    }
+    for name, table in own.items():
+        for key in sorted(set(table) - set(keys)):
+            raise ValueError(f"processes: {name} sets {key!r}; a process has {', '.join(keys)} only")
+    return own

@@ -7,25 +7,26 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.charts import build_atlas
 from meshjig.check import judge
 from meshjig.check.interlock import interlock
-from meshjig.check.outer_gap import outer_gap
 from meshjig.cut import carry_pieces, cut_curves, gap_outlines, overlay
 from meshjig.errors import OptionError
+from meshjig.layout import Layout, Parts
 from meshjig.measure import face_areas, interpolate
 from meshjig.options import Options
 from meshjig.output.colours import colours
 from meshjig.output.printable import printable
-from meshjig.progress import Progress, Stages
+from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.report import assemble_report
 from meshjig.scan import read_scan, refine_long_edges, self_crossings
 from meshjig.sizing import choose_tiles
-from meshjig.solid import displacement, solidify
+from meshjig.solid import Shell, kerf, shell
 from meshjig.stitch import region_graph, stitch
 from meshjig.tiling import FAMILIES, tile_charts
-from meshjig.types import Atlas, CutMesh, Ints, Knobs, Mesh, Outlines, Stitching
+from meshjig.types import Atlas, Floats, Ints, Mesh
 
 __all__ = ["make_puzzle"]
 
@@ -33,6 +34,7 @@ log = logging.getLogger("meshjig")
 
 WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
 TRIES = 3
+WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
 
 
 def make_puzzle(
@@ -62,23 +64,29 @@ def make_puzzle(
     options = options or Options.of(**keywords)
     stages = Stages(progress)
     with stages("scan"):
-        scan = read_scan(mesh, size=options.size, faces=options.faces, cavities=options.cavities)
-        scan.facts["self_crossings"] = self_crossings(scan.mesh.V, scan.mesh.F)
+        scan = read_scan(
+            mesh,
+            size=options.size,
+            faces=options.faces,
+            cavities=options.cavities,
+            resurface=options.resurface,
+        )
         surface = _with_short_edges(scan.mesh, options)
-    with stages("charts"):
-        atlas = build_atlas(surface, method=options.charts, seed=options.seed)
-    outlines, knobs, cut, stitching = _cut_into_pieces(atlas, options, stages)
-    piece_of_face = stitching.piece_of_region[cut.region]
-    with stages("clearance"):
-        parts, piece_of_part, discarded = _cut_gap(atlas, outlines, cut, piece_of_face, options)
-    with stages("solid"):
-        D, thickness = displacement(surface.V, surface.F, options.thickness)
-        D = interpolate(D, surface.F, parts.vertex_face, parts.vertex_bary)
-        raw, facts = solidify(parts.V, parts.F, piece_of_part, D)
-        solids = [printable(solid.V, solid.F) for solid in raw]
+    beside = Background(_beside_charts, scan.mesh, surface, options, alone=len(surface.F) < WORTH_A_CHILD)
+    try:
+        with stages("charts"):
+            atlas = build_atlas(surface, method=options.charts, seed=options.seed)
+        layout = _cut_into_pieces(atlas, options, stages)
+        with stages("clearance"):
+            parts = _leave_gaps(atlas, layout, options)
+        with stages("solid"):
+            sheets, scan.facts["self_crossings"] = beside.result()
+            solids, solid_facts = _solids(surface, parts, sheets, options)
+    except BaseException:
+        beside.cancel()
+        raise
     with stages("check"):
-        locks = interlock(cut, knobs, piece_of_face)
-        gap = outer_gap(parts.V, parts.F, piece_of_part, options.clearance)
+        locks = interlock(layout.cut, layout.knobs, layout.piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         verdict = judge(
             [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
@@ -86,27 +94,25 @@ def make_puzzle(
             thickness=options.thickness,
             clearance=options.clearance,
         )
-    tints = colours(len(solids), locks.pairs)
+        on_surface = parts if options.clearance_method != "solid" else None
+        report = assemble_report(
+            options, scan, atlas, layout, on_surface, locks, verdict, solids, solid_facts
+        )
+    report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
+    tints = colours(len(solids), locks.pairs).tolist()
     pieces = [
         Piece(name, V, F, tuple(tint), i + 1)
-        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
+        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints, strict=True))
     ]
-    report = assemble_report(
-        options,
-        scan,
-        atlas,
-        cut,
-        stitching,
-        piece_of_face,
-        locks,
-        verdict,
-        solids,
-        thickness | facts,
-        gap,
-        discarded,
-        stages,
-    )
-    return Puzzle(pieces, report, _curves(cut, outlines, piece_of_face) if options.curves else Curves())
+    curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
+    return Puzzle(pieces, report, curves)
+
+
+def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None]:
+    """Do what needs no charts: the two sheets, and how often the mesh crosses itself."""
+    pairs = self_crossings(mesh.V, mesh.F)
+    sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
+    return sheets, None if pairs is None else len(pairs)
 
 
 def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:
@@ -133,9 +139,7 @@ def _refuse_too_small_tiles(tile: float, area: float, options: Options) -> None:
     )
 
 
-def _cut_into_pieces(
-    atlas: Atlas, options: Options, stages: Stages
-) -> tuple[Outlines, Knobs, CutMesh, Stitching]:
+def _cut_into_pieces(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     """Tile, cut and stitch; again with other tiles when the number of pieces is too far off."""
     wanted, tried = options.pieces, []
     least_border = options.min_neck + options.clearance
@@ -154,28 +158,35 @@ def _cut_into_pieces(
             cut = overlay(atlas, outlines)
         with stages("stitch"):
             stitching = stitch(region_graph(cut), options.stitch, choice.size**2, least_border)
-        tried.append((outlines, knobs, cut, stitching))
+        tried.append(Layout(outlines, knobs, cut, stitching))
         n = stitching.n_pieces
         log.info("tiles of %.2f mm give %d pieces (%d expected)", choice.size, n, choice.expected)
         if options.piece_size or abs(n - options.pieces) <= WITHIN * options.pieces:
             break
         wanted = max(1, round(wanted * options.pieces / n))
-    return min(tried, key=lambda made: abs(made[3].n_pieces - options.pieces))
+    return min(tried, key=lambda layout: abs(layout.stitching.n_pieces - options.pieces))
 
 
-def _cut_gap(
-    atlas: Atlas, outlines: Outlines, cut: CutMesh, piece_of_face: Ints, options: Options
-) -> tuple[CutMesh, Ints, float]:
-    """Cut the surface once more, with the gap; also give the share of the area that it cut off."""
-    if options.clearance == 0:
-        return cut, piece_of_face, 0.0
-    band = gap_outlines(atlas, cut, outlines, piece_of_face, options.clearance, options.clearance_method)
-    parts = overlay(atlas, band)
-    piece, specks = carry_pieces(atlas.mesh, cut, piece_of_face, parts)
-    area = face_areas(parts.V, parts.F)
-    return parts, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300))
+def _leave_gaps(atlas: Atlas, layout: Layout, options: Options) -> Parts:
+    """Cut the surface once more with the gap, unless the gap is to be taken from the solids."""
+    if options.clearance == 0 or options.clearance_method == "solid":
+        return Parts(layout.cut, layout.piece_of_face, 0.0)
+    band = gap_outlines(
+        atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
+    )
+    cut = overlay(atlas, band)
+    piece, specks = carry_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
+    area = face_areas(cut.V, cut.F)
+    return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 
 
-def _curves(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> Curves:
-    plane, space = cut_curves(cut, outlines)
-    return Curves(plane, space)
+def _solids(
+    surface: Mesh, parts: Parts, sheets: Shell, options: Options
+) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+    """Give the pieces their thickness, as files can hold it."""
+    cut = parts.cut
+    outer, D = (interpolate(X, surface.F, cut.vertex_face, cut.vertex_bary) for X in (sheets.outer, sheets.D))
+    clearance = options.clearance if options.clearance_method == "solid" else 0.0
+    made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
+    facts["discarded_volume_share"] += parts.discarded
+    return [printable(V, F) for V, F in made], {**sheets.facts, **facts}

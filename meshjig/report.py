@@ -9,12 +9,16 @@ import numpy as np
 
 from meshjig.check import Verdict
 from meshjig.check.interlock import Interlock
+from meshjig.check.outer_gap import outer_gap
+from meshjig.layout import Layout, Parts
 from meshjig.measure import face_areas, mesh_volume, sums
 from meshjig.options import Options
-from meshjig.progress import Stages, peak_memory_mb
-from meshjig.types import Atlas, CutMesh, Floats, Ints, Scan, Stitching
+from meshjig.types import Atlas, Floats, Ints, Scan
 
 __all__ = ["assemble_report", "meshjig_version"]
+
+MOST_AREA_ERROR = 1e-6
+MOST_DISCARDED = 1e-3
 
 
 def meshjig_version() -> str:
@@ -29,60 +33,62 @@ def assemble_report(
     options: Options,
     scan: Scan,
     atlas: Atlas,
-    cut: CutMesh,
-    stitching: Stitching,
-    piece_of_face: Ints,
+    layout: Layout,
+    on_surface: Parts | None,
     locks: Interlock,
     verdict: Verdict,
     solids: list[tuple[Floats, Ints]],
     solid_facts: dict[str, Any],
-    gap_outer: dict[str, Any],
-    discarded: float,
-    stages: Stages,
 ) -> dict[str, Any]:
-    """Put together what report.json holds.
+    """Put together what report.json holds, but for timings and memory.
 
     Parameters
     ----------
-    options, scan, atlas, cut, stitching, locks, verdict, solids
+    options, scan, atlas, layout, locks, verdict, solids
         What the stages made.
-    piece_of_face : (m,) int64, for the faces of cut
+    on_surface : Parts or None
+        The surface as it was cut with the gap; None where the gap was taken from the solids.
     solid_facts : dict, what the solid stage says of itself
-    gap_outer : dict, the gap on the outer surface
-    discarded : float, share of the area that the gap cut off from its piece
-    stages : Stages
     """
-    n = stitching.n_pieces
+    cut, mesh = layout.cut, atlas.mesh
+    n = layout.stitching.n_pieces
     areas = face_areas(cut.V, cut.F)
-    area = sums(piece_of_face, areas, n)
-    mesh = atlas.mesh
+    area = sums(layout.piece_of_face, areas, n)
     surface = face_areas(mesh.V, mesh.F).sum()
+    gap = on_surface and outer_gap(
+        on_surface.cut.V, on_surface.cut.F, on_surface.piece_of_face, options.clearance
+    )
     checks = {
         **verdict.checks,
-        "gap_outer_mm": gap_outer,
+        "gap_outer_mm": gap,
         "area_error": float(abs(areas.sum() - surface) / surface),
-        "discarded_volume_share": discarded,
+        "discarded_volume_share": solid_facts["discarded_volume_share"],
         "interlocked_borders": locks.interlocked_borders,
         "interlocked_length": locks.interlocked_length,
         "head_neck": _head_neck(locks),
         "thin_necks": int((locks.neck < options.min_neck).sum()),
         "area_cv": float(area.std() / area.mean()),
     }
+    failures = verdict.failures | _broken_as_a_whole(checks)
     return {
         "meshjig": meshjig_version(),
         "input": scan.facts,
         "options": options.model_dump(),
         "charts": atlas.facts,
         "cut": cut.facts,
-        "stitching": stitching.facts,
+        "stitching": layout.stitching.facts,
         "solid": solid_facts,
         "pieces": _pieces(n, area, solids, locks),
         "checks": checks,
-        "failures": verdict.failures,
-        "timings_s": dict(stages.seconds),
-        "peak_memory_mb": peak_memory_mb(),
-        "ok": verdict.ok,
+        "failures": failures,
+        "ok": verdict.ok and len(failures) == len(verdict.failures),
     }
+
+
+def _broken_as_a_whole(checks: dict[str, Any]) -> dict[str, list[str]]:
+    """Name the promises about the whole puzzle that are broken; no single piece is to blame."""
+    most = {"area_error": MOST_AREA_ERROR, "discarded_volume_share": MOST_DISCARDED}
+    return {promise: [] for promise, limit in most.items() if checks[promise] > limit}
 
 
 def _pieces(

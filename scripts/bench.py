@@ -66,11 +66,18 @@ def _against_peer(mesh: Path, peer: Path, runs: int) -> None:
 
 
 def _write_clean(mesh: Path, clean: Path) -> None:
+    """Repair and scale a mesh, and close its holes: the peer takes closed meshes only."""
+    import pymeshlab
     import trimesh
 
     from meshjig import read_scan
 
     surface = read_scan(mesh, size=150.0, faces="all").mesh
+    filled = pymeshlab.MeshSet(verbose=False)
+    filled.add_mesh(pymeshlab.Mesh(surface.V, surface.F))
+    filled.meshing_close_holes(maxholesize=1000, selfintersection=False)
+    made = filled.current_mesh()
+    surface = read_scan((made.vertex_matrix(), made.face_matrix()), size=150.0, faces="all").mesh
     trimesh.Trimesh(surface.V, surface.F, process=False).export(clean)
 
 

@@ -7,6 +7,7 @@ from meshjig.check.gap import Gap, gaps
 from meshjig.check.judge import Verdict, judge
 from meshjig.check.overlap import Overlaps, overlaps
 from meshjig.check.thickness import Thickness, measure_thickness
+from meshjig.check.touched import touched_pieces
 
 __all__ = [
     "Gap",
@@ -25,5 +26,6 @@ __all__ = [
     "measure_thickness",
     "overlaps",
     "self_intersections",
+    "touched_pieces",
     "volume",
 ]

@@ -16,6 +16,7 @@ __all__ = ["Gap", "default_reach", "gap_between_bodies", "gaps"]
 
 _FACING = -0.8  # cosine between two walls' normals: they face each other
 _SAMPLES_A_PIECE = 1500
+_ENOUGH = 30  # samples on the border of two pieces, for their median to mean something
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class Gap:
 
     pairs: list[tuple[int, int, float | None]]  # least distance of two neighbours, mm; None: no manifold
     samples: Floats  # (k,), mm, spread evenly over the walls
+    sample_pair: Ints  # (k, 2), the pieces on both sides of a sample, lower first
 
     @property
     def min(self) -> float | None:
@@ -41,6 +43,28 @@ class Gap:
             "median": float(np.median(self.samples)) if known else None,
             "within_10pct": None if within is None else float(within.mean()),
         }
+
+
+    def wide(self, limit: float) -> list[tuple[int, int]]:
+        """List the neighbours that are farther apart than a limit, mm.
+
+        Either their least distance is over it, which is exact, or the median of at least 30 samples
+        between them.
+        """
+        n = int(self.sample_pair.max(initial=0)) + 1
+        key = self.sample_pair[:, 0] * n + self.sample_pair[:, 1]
+        order = np.argsort(key, kind="stable")
+        found, start = np.unique(key[order], return_index=True)
+        median = {
+            divmod(int(k), n): float(np.median(own))
+            for k, own in zip(found, np.split(self.samples[order], start[1:]), strict=False)
+            if len(own) >= _ENOUGH
+        }
+        return [
+            (i, j)
+            for i, j, least in self.pairs
+            if max(least or 0.0, median.get((min(i, j), max(i, j)), 0.0)) > limit
+        ]
 
 
 def default_reach(clearance: float | None) -> float:
@@ -89,7 +113,7 @@ def gap_between_bodies(
     found : bool, the pairs are guesses: those farther apart than the reach are no neighbours
     """
     pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
-    walls, bounds = _wall_distances(pieces, pairs, reach)
+    walls, between, bounds = _wall_distances(pieces, pairs, reach)
     measured: list[tuple[int, int, float | None]] = []
     for i, j in pairs.tolist():
         if bodies[i] is None or bodies[j] is None:
@@ -100,17 +124,18 @@ def gap_between_bodies(
         distance = float(bodies[i].min_gap(bodies[j], bound))
         if not found or distance < reach:
             measured.append((i, j, min(distance, reach)))
-    return Gap(measured, walls)
+    return Gap(measured, walls, between)
 
 
 def _wall_distances(
     pieces: Sequence[Piece], pairs: Ints, reach: float
-) -> tuple[Floats, dict[tuple[int, int], float]]:
+) -> tuple[Floats, Ints, dict[tuple[int, int], float]]:
     """Give the distance from points all over the walls to the nearest neighbour, (k,), mm.
 
-    Also give the least distance met between two pieces, on walls or elsewhere.
+    Also give the two pieces of each, (k, 2), and the least distance met between two pieces, on walls or
+    elsewhere.
     """
-    walls, bounds = [np.zeros(0)], {}
+    walls, between, bounds = [np.zeros(0)], [np.zeros((0, 2), np.int64)], {}
     s = soup(pieces)
     P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
     low, high = s.V[s.F].min(1), s.V[s.F].max(1)
@@ -127,10 +152,13 @@ def _wall_distances(
             continue
         nearest, distance, signed = _nearest(s, P[own], across)
         facing = np.einsum("ij,ij->i", s.N[nearest], s.N[face[own]]) <= _FACING
-        walls.append(signed[facing & (distance < reach)])
+        wall = facing & (distance < reach)
+        walls.append(signed[wall])
+        across_wall = s.piece[nearest[wall]]
+        between.append(np.stack([np.minimum(i, across_wall), np.maximum(i, across_wall)], 1))
         for j in others:
             bounds[int(i), int(j)] = float(distance.min(where=s.piece[nearest] == j, initial=np.inf))
-    return np.concatenate(walls), bounds
+    return np.concatenate(walls), np.concatenate(between), bounds
 
 
 def _nearest(s: Soup, P: Floats, faces: Ints) -> tuple[Ints, Floats, Floats]:

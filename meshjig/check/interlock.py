@@ -33,6 +33,10 @@ class Interlock:
         total = float(self.length.sum())
         return float(self.length[self.knobs_of_pair > 0].sum()) / total if total > 0 else None
 
+    def thin_necked(self, least: float) -> list[int]:
+        """List the pieces with a knob, their own or the other's in them, whose neck is narrower, mm."""
+        return np.unique(self.pairs[self.knob_pair[self.neck < least]]).tolist()
+
 
 def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
     """Find the borders between pieces, and the knobs that are whole.

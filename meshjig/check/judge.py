@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.check.arrays import Piece, boxes, close_boxes, sound_piece
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
 from meshjig.check.crossings import self_intersections
@@ -21,7 +22,11 @@ __all__ = ["Verdict", "judge"]
 
 OVERLAP_MM3 = 1e-3  # what two pieces may share by rounding
 GAP_SHARE = 0.95  # of the clearance, that every gap must keep
+WIDE_SHARE = 1.1  # of the clearance, that the median gap of all may have
+WIDE_PAIR_SHARE = 1.25  # of the clearance, that the median gap of two neighbours may have
 THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
+EXEMPTIBLE = ("self_intersections", "overlap_mm3", "gap_mm", "gap_wide_mm")
+WORTH_A_CHILD = 60_000  # faces; below, a child process takes longer to start than it saves
 
 
 @dataclass(frozen=True)
@@ -30,12 +35,13 @@ class Verdict:
 
     checks: dict[str, Any]  # the report's "checks"; None for what the pieces alone don't tell
     failures: dict[str, list[str]] = field(default_factory=dict)  # promise: names of pieces
-    exempt: frozenset[str] = frozenset()  # promises that are measured, but not held against the puzzle
+    exempt: dict[str, list[str]] = field(default_factory=dict)  # promise: exempt pieces that break it
+    named: dict[str, list[str]] = field(default_factory=dict)  # counted, but no promise: its pieces
 
     @property
     def ok(self) -> bool:
-        """Whether every promise that counts is kept."""
-        return not set(self.failures) - self.exempt
+        """Whether every promise is kept, but for pieces that are exempt."""
+        return not self.failures
 
 
 def judge(
@@ -44,14 +50,23 @@ def judge(
     neighbours: Sequence[Sequence[int]] | None = None,
     thickness: float | None = None,
     clearance: float | None = None,
-    exempt: Collection[str] = (),
+    min_wall: float | None = None,
+    exempt_pieces: Collection[str] = (),
 ) -> Verdict:
     """Judge the finished pieces of a puzzle, whatever made them.
 
-    The promises: ``closed`` and oriented, also as STL; ``one_component``; ``positive_volume``;
-    ``self_intersections`` none; ``overlap_mm3`` of two pieces at most 0.001, and known; ``gap_mm`` of two
-    neighbours at least 0.95 of the clearance; ``thickness_mm``, the median, from 0.8 to 1.25 of
-    the thickness. The last two hold only where clearance and thickness are known.
+    The promises, each a name in `Verdict.failures` with the pieces that break it:
+
+    - ``closed`` and oriented, also as STL; ``one_component``; ``positive_volume``: proven, on the faces;
+    - ``self_intersections``: proven that no two faces of a piece cross deeper than 0.005 mm;
+    - ``overlap_mm3``: no two pieces, neighbours or not, share more than 0.001 mm3, by exact booleans;
+    - ``gap_mm``: the least distance of two neighbours, which is exact, is at least 0.95 of the clearance;
+    - ``gap_wide_mm``: the median of what was sampled between all neighbours is at most 1.1 of the
+      clearance, and between any two at most 1.25, as is their least distance; only where neighbours are
+      named, since pieces far apart are none otherwise;
+    - ``thickness_mm``: a piece's median, by rays from some 1,000 points, is 0.8 to 1.25 of the thickness.
+
+    The last three hold only where clearance and thickness are known.
 
     Parameters
     ----------
@@ -61,7 +76,11 @@ def judge(
         Without it, pieces that lie close to each other are neighbours.
     thickness, clearance : float, mm, optional
         What was asked for.
-    exempt : names of promises that are measured, but don't decide `Verdict.ok`
+    min_wall : float, mm, optional
+        What the process can make; thinner pieces are counted and named, which breaks no promise.
+    exempt_pieces : names of pieces, such as those touched by crossings of the surface itself
+        What they break by crossing, overlapping or standing too near or far, alone or with another piece,
+        is named in `Verdict.exempt` and does not decide `Verdict.ok`.
 
     Returns
     -------
@@ -74,35 +93,50 @@ def judge(
     """
     names, meshes = _named(pieces)
     pairs = _neighbour_pairs(neighbours, len(meshes))
+    spared = {i for i, name in enumerate(names) if name in set(exempt_pieces)}
     failures: dict[str, list[str]] = {}
+    exempt: dict[str, list[str]] = {}
 
-    def hold(promise: str, broken: Iterable[int]) -> None:
-        blamed = sorted(set(broken))
-        if blamed:
-            failures[promise] = [names[i] for i in blamed]
+    def hold(promise: str, broken: Iterable[tuple[int, ...]]) -> None:
+        """Blame pieces, alone or in pairs; where one of them is exempt, it alone is named as such."""
+        for blamed, excused in ((failures, False), (exempt, True)):
+            found = {
+                i
+                for together in broken
+                if excused == (promise in EXEMPTIBLE and not spared.isdisjoint(together))
+                for i in together
+                if not excused or i in spared
+            }
+            if found:
+                blamed[promise] = [names[i] for i in sorted(found)]
 
-    every = range(len(meshes))
-    hold("closed", (i for i in every if not is_closed_as_stl(*meshes[i])))
-    hold("one_component", (i for i in every if not is_one_component(meshes[i][1])))
-    hold("positive_volume", (i for i in every if volume(*meshes[i]) <= 0))
-    crossings = [len(self_intersections(*mesh)) for mesh in meshes]
-    hold("self_intersections", np.flatnonzero(crossings).tolist())
-
-    solids = bodies(meshes)
-    low, high = boxes(meshes)
-    shared = overlaps_of_bodies(solids, close_boxes(low, high, 0.0).tolist())
-    sharing = [k for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3 for k in (i, j)]
-    hold("overlap_mm3", [*sharing, *shared.unmeasured])
-    gap = _gap(meshes, solids, pairs, clearance, close_boxes(low, high, default_reach(clearance)))
+    small = sum(len(F) for _, F in meshes) < WORTH_A_CHILD
+    beside = Background(_crossings_and_thickness, meshes, alone=small)
+    try:
+        every = range(len(meshes))
+        hold("closed", [(i,) for i in every if not is_closed_as_stl(*meshes[i])])
+        hold("one_component", [(i,) for i in every if not is_one_component(meshes[i][1])])
+        hold("positive_volume", [(i,) for i in every if volume(*meshes[i]) <= 0])
+        solids = bodies(meshes)
+        low, high = boxes(meshes)
+        gap = _gap(meshes, solids, pairs, clearance, close_boxes(low, high, default_reach(clearance)))
+        apart = {(min(i, j), max(i, j)) for i, j, least in gap.pairs if least}
+        shared = overlaps_of_bodies(solids, close_boxes(low, high, 0.0).tolist(), apart)
+        crossings, sheets = beside.result()
+    except BaseException:
+        beside.cancel()
+        raise
+    hold("self_intersections", [(i,) for i in every if crossings[i]])
+    sharing = [(i, j) for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3]
+    hold("overlap_mm3", [*sharing, *((i,) for i in shared.unmeasured)])
     if clearance:
-        hold(
-            "gap_mm",
-            (k for *pair, mm in gap.pairs if mm is not None and mm < GAP_SHARE * clearance for k in pair),
-        )
-    sheets = measure_thickness(meshes)
+        narrow = GAP_SHARE * clearance
+        hold("gap_mm", [(i, j) for i, j, least in gap.pairs if least is not None and least < narrow])
+        hold("gap_wide_mm", _wide(gap, clearance) if pairs is not None else [])
     facts = sheets.facts(thickness)
     if thickness and not _within(facts["median"], thickness):
-        hold("thickness_mm", _off_thickness(sheets, thickness, len(meshes)))
+        hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(meshes))])
+    thin = sheets.thin(min_wall) if min_wall else []
 
     checks = {
         "closed": "closed" not in failures,
@@ -111,6 +145,7 @@ def judge(
         "overlap_mm3": shared.total,
         "gap_mm": gap.facts(clearance),
         "thickness_mm": facts,
+        "thin_walls": len(thin) if min_wall else None,
         **dict.fromkeys(
             (
                 "area_error",
@@ -123,7 +158,12 @@ def judge(
         "head_neck": {"min": None, "median": None},
         "area_cv": None,
     }
-    return Verdict(checks, failures, frozenset(exempt))
+    return Verdict(checks, failures, exempt, {"thin_walls": [names[i] for i in thin]} if min_wall else {})
+
+
+def _crossings_and_thickness(meshes: list[Piece]) -> tuple[list[int], Thickness]:
+    """Count the crossings of each piece, and measure all pieces' thickness."""
+    return [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
 
 
 def _named(pieces: Iterable[Sequence[Any]]) -> tuple[list[str], list[Piece]]:
@@ -151,6 +191,13 @@ def _gap(meshes: list[Piece], solids: list[Any], pairs: Any, clearance: float | 
     if pairs is None:
         return gap_between_bodies(meshes, solids, close, reach, found=True)
     return gap_between_bodies(meshes, solids, pairs, max(reach, 1.0), found=False)
+
+
+def _wide(gap: Gap, clearance: float) -> list[tuple[int, int]]:
+    """List the neighbours that stand too far apart."""
+    median = gap.facts(clearance)["median"]
+    everywhere = median is not None and median > WIDE_SHARE * clearance
+    return gap.wide((WIDE_SHARE if everywhere else WIDE_PAIR_SHARE) * clearance)
 
 
 def _within(median: float | None, nominal: float) -> bool:

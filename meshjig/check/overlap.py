@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from meshjig.check.arrays import Piece, boxes, close_boxes
@@ -39,12 +39,21 @@ def overlaps(pieces: Sequence[Piece]) -> Overlaps:
     return overlaps_of_bodies(bodies(pieces), close_boxes(low, high, 0.0).tolist())
 
 
-def overlaps_of_bodies(bodies: Sequence[Body], pairs: Sequence[Sequence[int]]) -> Overlaps:
-    """Measure the space shared by named pairs of bodies, as overlaps() does."""
+def overlaps_of_bodies(
+    bodies: Sequence[Body], pairs: Sequence[Sequence[int]], apart: Collection[tuple[int, int]] = ()
+) -> Overlaps:
+    """Measure the space shared by named pairs of bodies, as overlaps() does.
+
+    Parameters
+    ----------
+    bodies : as bodies() gives them
+    pairs : (k, 2) pieces, lower first
+    apart : pairs, lower first, whose distance is known to be more than 0: they share nothing
+    """
     unmeasured = [i for i, body in enumerate(bodies) if body is None]
     found = []
     for i, j in pairs:
-        if bodies[i] is None or bodies[j] is None:
+        if bodies[i] is None or bodies[j] is None or (i, j) in apart:
             continue
         shared = float((bodies[i] ^ bodies[j]).volume())
         if shared > 0:

@@ -38,6 +38,13 @@ class Thickness:
             "thin_area_share": float((self.samples < 0.8 * nominal).mean()) if known and nominal else None,
         }
 
+    def thin(self, least: float) -> list[int]:
+        """List the pieces of which more than 1 % of the sheets is thinner than the least thickness, mm."""
+        order = np.argsort(self.piece, kind="stable")
+        found, start = np.unique(self.piece[order], return_index=True)
+        own = np.split(self.samples[order], start[1:])
+        return [int(i) for i, x in zip(found, own, strict=False) if np.percentile(x, 1) < least]
+
 
 def measure_thickness(pieces: Sequence[Piece]) -> Thickness:
     """Measure the thickness of pieces with rays that go straight in and come out on the other side.

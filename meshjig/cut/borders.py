@@ -1,5 +1,6 @@
 """The borders between pieces on a cut mesh, as curves in the plane."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,12 +9,14 @@ from meshjig.measure import barycentric
 from meshjig.topology import edges, next_halfedge
 from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Outlines
 
-__all__ = ["PlaneCurves", "SeamEdges", "cut_borders", "seam_borders"]
+__all__ = ["PlaneCurves", "SeamEdges", "along_seams", "cut_borders", "seam_borders"]
+
+SAME_PLACE = 1e-3  # mm in the plane
 
 
 @dataclass(frozen=True)
 class PlaneCurves:
-    """Stretches of cuts that divide two pieces, in order along the cuts."""
+    """Stretches of borders that divide two pieces, in order along them."""
 
     start: Floats  # (k, 2), mm
     end: Floats  # (k, 2), mm
@@ -84,6 +87,39 @@ def seam_borders(atlas: Atlas, cut: CutMesh, piece_of_face: Ints) -> SeamEdges:
     active = (piece_of_face[h // 3] != piece_of_face[e.twin[h] // 3])[candidates]
     uv_start, uv_end = (_place_in_chart(atlas, face, cut.V[v]) for v in (start, end))
     return SeamEdges(uv_start, uv_end, face, np.stack([start, end], 1), mate, np.tile(active, 2))
+
+
+def along_seams(seams: SeamEdges) -> tuple[PlaneCurves, Ints]:
+    """Put the seam edges that divide two pieces in order along the seams.
+
+    Returns
+    -------
+    curves : PlaneCurves
+    row : (k,) int64, the seam edge that each stretch is
+    """
+    rows = np.flatnonzero(seams.active)
+    start = {(v, *uv): row for row, v, uv in _places(rows, seams.vertices[:, 0], seams.start)}
+    following = {row: start.get((v, *uv)) for row, v, uv in _places(rows, seams.vertices[:, 1], seams.end)}
+    led_to = set(following.values())
+    order: list[int] = []
+    follows: list[bool] = []
+    for first in [row for row in following if row not in led_to] + list(following):
+        row: int | None = first
+        while row is not None and row in following:
+            order.append(row)
+            follows.append(row != first)
+            row = following.pop(row)
+    chosen = np.array(order, dtype=np.int64)
+    curves = PlaneCurves(
+        seams.start[chosen], seams.end[chosen], seams.parent[chosen], np.array(follows, dtype=bool)
+    )
+    return curves, chosen
+
+
+def _places(rows: Ints, vertex: Ints, uv: Floats) -> Iterator[tuple[int, int, tuple[int, int]]]:
+    """Name the places of rows by vertex and rounded point: a vertex may lie in several charts."""
+    cells = np.rint(uv[rows] / SAME_PLACE).astype(np.int64)
+    return zip(rows.tolist(), vertex[rows].tolist(), map(tuple, cells.tolist()), strict=True)
 
 
 def _on_seam(atlas: Atlas, parent: Ints) -> Bools:

@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.cut.borders import PlaneCurves, SeamEdges, cut_borders, seam_borders
+from meshjig.cut.borders import PlaneCurves, SeamEdges, along_seams, cut_borders, seam_borders
 from meshjig.cut.metric import face_metric, half_width
 from meshjig.measure import area_vectors, unit
 from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
@@ -12,9 +12,9 @@ from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 __all__ = ["gap_outlines"]
 
 WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
-GRID = 2.0**-12  # mm, where the band's corners come to lie
+STRAIGHT = 2e-4  # mm, that a border may be off when it is drawn with fewer points
 WIDEST = 1.7  # times the half clearance, on either side of a crease
-ARC = 6  # corners of a quarter circle
+ARC = 5  # corners of a quarter circle
 
 
 def gap_outlines(
@@ -58,17 +58,15 @@ def gap_outlines(
     seam_width = _widths(atlas, seams.start, seams.end, seams.parent, clearance, method)
     if method == "stretch":
         seam_width *= _around_crease(atlas, seams)
-    active = seams.active
+    seam_curves, row = along_seams(seams)
     shapes = np.concatenate(
         [
-            _buffered_curves(curves, curve_width),
-            _buffered(seams.start[active], seams.end[active], seam_width[active]),
+            _buffered(curves, curve_width),
+            _buffered(seam_curves, seam_width[row]),
             _carried_over(cut, curves, seams, seam_width, clearance),
         ]
     )
-    band = shapely.union_all(shapes)
-    band = shapely.set_precision(shapely.simplify(band, clearance / 100), GRID)
-    return _as_outlines(band, clearance)
+    return _as_outlines(shapely.simplify(shapely.union_all(shapes), clearance / 100), clearance)
 
 
 def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: float, method: str) -> Floats:
@@ -86,7 +84,7 @@ def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
     return 1 / np.sqrt(np.clip((1 + cos) / 2, WIDEST**-2, 1))
 
 
-def _buffered_curves(curves: PlaneCurves, width: Floats) -> np.ndarray:
+def _buffered(curves: PlaneCurves, width: Floats) -> np.ndarray:
     """Buffer runs of stretches that follow each other and have nearly the same width."""
     import shapely
 
@@ -105,7 +103,7 @@ def _buffered_curves(curves: PlaneCurves, width: Floats) -> np.ndarray:
     order = np.argsort(line, kind="stable")
     lines = shapely.linestrings(points[order], indices=line[order])
     half = np.exp(step[first] * WIDTH_STEP)
-    return shapely.buffer(shapely.simplify(lines, GRID), half, quad_segs=ARC)
+    return shapely.buffer(shapely.simplify(lines, STRAIGHT), half, quad_segs=ARC)
 
 
 def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
@@ -115,12 +113,6 @@ def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
     weight = np.maximum(length, 1e-9)
     mean = np.bincount(where, weight * width) / np.bincount(where, weight)
     return mean[where]
-
-
-def _buffered(start: Floats, end: Floats, width: Floats) -> np.ndarray:
-    import shapely
-
-    return shapely.buffer(shapely.linestrings(np.stack([start, end], 1)), width, quad_segs=ARC)
 
 
 def _carried_over(

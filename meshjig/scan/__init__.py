@@ -5,6 +5,7 @@ from meshjig.scan.load import load
 from meshjig.scan.read import describe, read_scan
 from meshjig.scan.repair import repair
 from meshjig.scan.resolution import decimate, refine_long_edges
+from meshjig.scan.resurface import resurface
 from meshjig.scan.scale import to_millimetres
 
 __all__ = [
@@ -14,6 +15,7 @@ __all__ = [
     "read_scan",
     "refine_long_edges",
     "repair",
+    "resurface",
     "self_crossings",
     "to_millimetres",
 ]

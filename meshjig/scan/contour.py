@@ -13,11 +13,11 @@ from meshjig.types import Floats, Ints
 __all__ = ["Contour", "contour"]
 
 _FLAT = 0.1  # of the largest eigenvalue: what a cube's planes must say of a direction to decide it
-_INSET = 0.02  # of a cube: vertices keep this far from its sides, so that no two meet
+_BEYOND = 0.5  # of a cube: how far outside it a vertex may go to where planes meet
 
 
 class Contour(NamedTuple):
-    """Triangles with a vertex in every cube of a field."""
+    """Triangles with a vertex in every cube of a field, or near it."""
 
     V: Floats  # (n, 3)
     F: Ints  # (m, 3), facing outward
@@ -93,10 +93,9 @@ def _toward_planes(cube: Ints, at: Ints, foot: Floats, normal: Floats, middle: F
 
 
 def _within(step: Floats, start: Floats, low: Floats, cell: float) -> Floats:
-    """Shorten steps so that they end in their cubes."""
-    inset = _INSET * cell
-    start = np.clip(start, low + inset, low + cell - inset)
-    room = np.where(step > 0, low + cell - inset - start, start - low - inset)
+    """Shorten steps so that they end in their cubes, or not far outside."""
+    beyond = _BEYOND * cell
+    room = np.where(step > 0, low + cell + beyond - start, start - low + beyond)
     share = (room / np.maximum(np.abs(step), 1e-300)).min(axis=1)
     return step * np.clip(share, 0, 1)[:, None]
 

@@ -13,7 +13,7 @@ __all__ = ["CORNERS", "Field", "follow", "signed_field", "steps"]
 
 CORNERS = np.array([[c & 1, c >> 1 & 1, c >> 2] for c in range(8)], np.int64)  # of a cube
 _NEAR = 2.0  # cubes, up to which a corner has its distance
-_MOST_RINGS = 1000  # of cubes, grown over a hole
+_MOST_OVER_HOLES = 0.25  # of the cubes: the surface is open, and need not be known
 
 
 class Field(NamedTuple):
@@ -28,7 +28,13 @@ class Field(NamedTuple):
     cell: float  # edge of a cube
     key: Ints  # (k,), known corners, ascending
     value: Floats  # (k,), negative inside; never 0
+    near: Ints  # (q,), ascending keys of the cubes near triangles
     cubes: Ints  # (c,), ascending keys of those that the surface passes through; all their corners are known
+
+    @property
+    def over_holes(self) -> float:
+        """The share of the surface that no triangle is near, by its cubes."""
+        return float(1 - np.isin(self.cubes, self.near).mean()) if len(self.cubes) else 0.0
 
     def at(self, key: Ints) -> Ints:
         """Give the place of keys among the known corners, -1 for unknown ones."""
@@ -72,19 +78,21 @@ def signed_field(V: Floats, F: Ints, cell: float) -> Field:
     near = np.unique(touched[:, None] + steps(_offsets(-1, 2)))
     key = np.unique(near[:, None] + steps(CORNERS))
     none = np.zeros(0, np.int64)
-    return follow(_with_corners(Field(V, F, low, cell, none, np.zeros(0), none), key))
+    return follow(_with_corners(Field(V, F, low, cell, none, np.zeros(0), near, none), key))
 
 
 def follow(field: Field) -> Field:
-    """Learn corners until the surface is known all around, over holes too, and list its cubes."""
-    for _ in range(_MOST_RINGS):
-        cubes = _crossed_cubes(field)
-        missing = np.unique(cubes[:, None] + steps(CORNERS))
+    """Learn corners until the surface is known all around, over holes too, and list its cubes.
+
+    A surface of which too much lies over holes is left unfinished.
+    """
+    while True:
+        field = field._replace(cubes=_crossed_cubes(field))
+        missing = np.unique(field.cubes[:, None] + steps(CORNERS))
         missing = missing[field.at(missing) < 0]
-        if not len(missing):
-            break
+        if not len(missing) or field.over_holes > _MOST_OVER_HOLES:
+            return field
         field = _with_corners(field, missing)
-    return field._replace(cubes=cubes)
 
 
 def steps(ijk: Ints) -> Ints:

@@ -10,6 +10,8 @@ from meshjig.scan.crossings import self_crossings
 from meshjig.scan.load import load
 from meshjig.scan.repair import repair
 from meshjig.scan.resolution import decimate
+from meshjig.scan.resurface import resurface as rebuild
+from meshjig.scan.resurface import resurfacing_cell
 from meshjig.scan.scale import to_millimetres
 from meshjig.topology import border_halfedges, components, edges
 from meshjig.types import Ints, Mesh, Scan
@@ -18,7 +20,12 @@ __all__ = ["describe", "read_scan"]
 
 
 def read_scan(
-    source: Any, *, size: float | None = None, faces: int | Literal["all"] = 100_000, cavities: bool = False
+    source: Any,
+    *,
+    size: float | None = None,
+    faces: int | Literal["all"] = 100_000,
+    cavities: bool = False,
+    resurface: bool = False,
 ) -> Scan:
     """Load, repair, scale and simplify a mesh.
 
@@ -28,6 +35,7 @@ def read_scan(
     size : float, mm, the largest extent; None: see `to_millimetres`
     faces : int or "all", the working resolution
     cavities : bool, whether shells that lie inside a solid stay
+    resurface : bool, whether the outer surface is rebuilt, without crossings; see `resurface`
 
     Returns
     -------
@@ -35,7 +43,8 @@ def read_scan(
         facts is the report's ``input``: ``file``, ``reader``, ``faces`` (as loaded), ``components``,
         ``borders`` (open loops), ``genus`` (summed over components), ``self_crossings`` (None: not counted
         here), ``repairs`` (see `repair`), ``scale``, ``size_mm``, ``units``, ``moved_mm``,
-        ``working_faces``, ``decimated_from`` (faces before, or None).
+        ``working_faces``, ``decimated_from`` (faces before, or None), ``resurfaced`` (see `resurface`; None
+        when it was not asked for).
 
     Raises
     ------
@@ -45,8 +54,10 @@ def read_scan(
     loaded = load(source)
     V, F, repairs = repair(loaded.V, loaded.F, cavities=cavities)
     scaled = to_millimetres(V, size)
+    V, resurfaced = scaled.V, None
+    if resurface:
+        V, F, resurfaced = rebuild(V, F, resurfacing_cell(V, F, faces), cavities=cavities)
     n_clean = len(F)
-    V = scaled.V
     if faces != "all":
         V, F = decimate(V, F, faces)
     facts = {
@@ -58,6 +69,7 @@ def read_scan(
         **scaled.facts,
         "working_faces": len(F),
         "decimated_from": n_clean if len(F) < n_clean else None,
+        "resurfaced": resurfaced,
     }
     return Scan(
         Mesh(np.ascontiguousarray(V), np.ascontiguousarray(F)), loaded.source, scaled.to_source, facts

@@ -7,7 +7,9 @@ import numpy as np
 from meshjig.measure import area_vectors, unit
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["at_any_corner", "crossing_pairs", "near"]
+__all__ = ["at_any_corner", "cell_size", "crossing_pairs", "near"]
+
+_MOST_CELLS = 400  # along the longest side
 
 
 def crossing_pairs(V: Floats, F: Ints) -> tuple[Ints, Floats]:
@@ -53,17 +55,24 @@ def near(V: Floats, F: Ints, active: Bools, cell: float) -> Bools:
     -------
     (m,) bool, a superset
     """
-    from scipy.ndimage import binary_dilation
-
     if not active.any():
         return np.zeros(len(F), bool)
     low = V.min(0)
-    cell = max(cell, float((V.max(0) - low).max()) / 200)
+    cell = max(cell, float((V.max(0) - low).max()) / _MOST_CELLS)
     box = ((V - low) / cell).astype(np.int64) + 1
-    taken = np.zeros(box.max(0) + 2, bool)
-    taken[tuple(box[F[active].ravel()].T)] = True
-    taken = binary_dilation(taken, np.ones((3, 3, 3), bool))
-    return at_any_corner(taken[tuple(box.T)], F) | _large(V, F, cell)
+    sides = box.max(0) + 2
+    key = (box[:, 0] * sides[1] + box[:, 1]) * sides[2] + box[:, 2]
+    taken = np.zeros(int(sides.prod()), bool)
+    around = np.arange(-1, 2)
+    steps = ((around[:, None] * sides[1] + around)[:, :, None] * sides[2] + around).ravel()
+    taken[(np.unique(key[F[active].ravel()])[:, None] + steps).ravel()] = True
+    return at_any_corner(taken[key], F) | _large(V, F, cell)
+
+
+def cell_size(V: Floats, F: Ints, thickness: float) -> float:
+    """Give the edge of a box, mm, that all but a few faces fit into."""
+    length = np.linalg.norm(V[F[:, 1]] - V[F[:, 0]], axis=1)
+    return max(0.25 * thickness, 1.25 * float(np.percentile(length, 98)))
 
 
 def at_any_corner(mark: Bools, F: Ints) -> Bools:

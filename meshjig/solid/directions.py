@@ -61,7 +61,7 @@ def smooth_normals(V: Floats, F: Ints, smoother: Smoother, scale: float) -> Floa
     """
     N = area_vectors(V, F) / 6
     integrals = np.stack([_sum_at_vertices(F, np.repeat(N[:, [k]], 3, 1), len(V)) for k in range(3)], 1)
-    return unit(smoother.solve(integrals, scale, start=unit(integrals)))
+    return unit(smoother.solve(integrals, scale, start=unit(integrals), tolerance=1e-3))
 
 
 def _corner_angles(V: Floats, F: Ints) -> Floats:

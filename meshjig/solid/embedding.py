@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from meshjig.measure import area_vectors, unit
-from meshjig.solid.crossings import at_any_corner, crossing_pairs, near
+from meshjig.solid.crossings import at_any_corner, cell_size, crossing_pairs, near
+from meshjig.solid.parts import part_around
 from meshjig.solid.patches import Patches
 from meshjig.solid.visible import visible_directions
 from meshjig.types import Bools, Floats, Ints
@@ -17,10 +18,15 @@ __all__ = ["flipped", "unfold"]
 _FLIP_ROUNDS = 4  # rounds that look at flips alone, which are cheap to find
 _SMOOTH_ROUNDS = 9  # rounds that smooth; later ones retreat towards the outer sheet
 _MAX_ROUNDS = 24
+_PATIENCE = 8  # rounds without progress
+_PASSES = 3  # looks at the sheet as a whole
+_PART = 4.0  # of the thickness: how far around a bad face the sheet may move or be met
 _SHORTEST = 0.06  # mm, where retreating ends
 
 
-def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dict[str, Any]]:
+def unfold(
+    V: Floats, F: Ints, D: Floats, thickness: float, clear: Floats | None = None
+) -> tuple[Floats, dict[str, Any]]:
     """Move an inner sheet until it neither flips nor crosses itself or the outer sheet.
 
     Parameters
@@ -29,11 +35,13 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
     F : (m, 3) int64
     D : (n, 3) float64, mm; V + D is the inner sheet
     thickness : float, mm, what D aims at
+    clear : (n,) float64, mm, how far V + D is from the outer sheet; spares tests where it is known
 
     Returns
     -------
     D : (n, 3) float64
-    facts : {"folds_left": faces that still flip or cross, "crossings_left": those that cross, "rounds": int}
+    facts : {"folds_left": faces that still flip or cross, "crossings_left": those that cross,
+        "outer_crossings": faces near crossings at which the outer sheet itself crosses, "rounds": int}
 
     Notes
     -----
@@ -43,43 +51,122 @@ def unfold(V: Floats, F: Ints, D: Floats, thickness: float) -> tuple[Floats, dic
     such a sheet crosses nothing. A flip alone is left then: under an overhang finer than the thickness it
     means that D leans, not that the sheets meet. Crossings of the outer sheet with itself, and what crosses
     them, are left alone and not counted.
+
+    The whole sheet is looked at once; rounds then work on the part around what is bad.
     """
-    m = len(F)
-    patches = Patches(V, F)
+    m, cell = len(F), cell_size(V, F, thickness)
     both = np.concatenate([F, F + len(V)])
-    cell = max(thickness, 2 * patches.mean_edge)
-    flips = flipped(V, F, D)
-    pairs = np.empty((0, 2), np.int64)
-    hopeless = np.zeros(m, bool)  # where the outer sheet crosses itself
-    changed: Bools | None = None  # faces whose inner side moved since the crossings were last listed
-    rounds = 0
-    while True:
-        if rounds >= _FLIP_ROUNDS or not flips.any():
-            if changed is None:
-                pairs = crossing_pairs(np.concatenate([V, V + D]), both)[0]
-                hopeless[pairs[(pairs < m).all(1)].ravel()] = True
-            else:
-                pairs = _renewed(V, V + D, both, pairs, changed, cell)
-            pairs = pairs[(pairs >= m).any(1)]
-            changed = np.zeros(m, bool)
-        hit = np.zeros(m, bool)
-        hit[pairs[~hopeless[pairs % m].any(1)].ravel() % m] = True
-        bad = hit if rounds >= _SMOOTH_ROUNDS else hit | flips
-        if not bad.any() or rounds == _MAX_ROUNDS:
+    start = D
+    D, rounds = _settled(V, F, D, flipped(V, F, D), None, np.zeros(m, bool), thickness, 0)
+    clear = np.where((start != D).any(1), 0.0, 0.0 if clear is None else clear)
+    pairs, hopeless = _listed(V, V + D, F, clear, cell)
+    for _ in range(_PASSES):
+        hit, flips = _hit(pairs, hopeless), flipped(V, F, D)
+        bad = hit | (flips & (rounds < _SMOOTH_ROUNDS))
+        if not bad.any() or rounds >= _MAX_ROUNDS:
             break
+        before = D
+        D, rounds = _settled(V, F, D, bad, pairs, hopeless, thickness, rounds)
+        changed = at_any_corner((before != D).any(1), F)
+        pairs = _renewed(V, V + D, both, pairs, changed, cell)
+    hit, flips = _hit(pairs, hopeless), flipped(V, F, D)
+    facts = {
+        "folds_left": int((flips | hit).sum()),
+        "crossings_left": int(hit.sum()),
+        "outer_crossings": int(hopeless.sum()),
+        "rounds": rounds,
+    }
+    return D, facts
+
+
+def _listed(V: Floats, inner: Floats, F: Ints, clear: Floats, cell: float) -> tuple[Ints, Bools]:
+    """List all crossings of the inner sheet, and mark the faces around them that cross on the outer sheet."""
+    m = len(F)
+    X, both = np.concatenate([V, inner]), np.concatenate([F, F + len(V)])
+    close = np.concatenate([np.zeros(m, bool), clear[F].min(1) <= _longest_edges(inner, F)])
+    some = np.flatnonzero(np.concatenate([near(X, both, close, cell)[:m], np.ones(m, bool)]))
+    pairs = some[crossing_pairs(X, both[some])[0]]
+    pairs = pairs[(pairs >= m).any(1)]
+    hit = np.zeros(m, bool)
+    hit[pairs.ravel() % m] = True
+    some = np.flatnonzero(near(V, F, hit, cell))
+    hopeless = np.zeros(m, bool)
+    hopeless[some[crossing_pairs(V, F[some])[0].ravel()]] = True
+    return pairs, hopeless
+
+
+def _longest_edges(V: Floats, F: Ints) -> Floats:
+    corner = V[F]
+    return np.sqrt(((corner - corner[:, [1, 2, 0]]) ** 2).sum(2).max(1))
+
+
+def _settled(
+    V: Floats,
+    F: Ints,
+    D: Floats,
+    bad: Bools,
+    pairs: Ints | None,
+    hopeless: Bools,
+    thickness: float,
+    rounds: int,
+) -> tuple[Floats, int]:
+    """Run the rounds on the part of the mesh around bad faces; without pairs, those for flips alone."""
+    if not bad.any():
+        return D, rounds
+    part = part_around(V, F, bad, _PART * thickness)
+    if pairs is not None:
+        pairs = part.inside(pairs, len(F))
+    E, rounds = _rounds(
+        V[part.vertices], part.F, D[part.vertices], part.held, pairs, hopeless[part.faces], thickness, rounds
+    )
+    D = D.copy()
+    D[part.vertices] = E
+    return D, rounds
+
+
+def _rounds(
+    V: Floats,
+    F: Ints,
+    D: Floats,
+    held: Bools,
+    pairs: Ints | None,
+    hopeless: Bools,
+    thickness: float,
+    rounds: int,
+) -> tuple[Floats, int]:
+    """Smooth, then retreat, until nothing is bad; give D and the rounds so far."""
+    patches = Patches(V, F, held)
+    both, cell = np.concatenate([F, F + len(V)]), cell_size(V, F, thickness)
+    flips = flipped(V, F, D)
+    least, since = len(F) + 1, 0
+    last = _FLIP_ROUNDS if pairs is None else _MAX_ROUNDS
+    while rounds < last:
+        hit = _hit(pairs, hopeless) if pairs is not None else np.zeros(len(F), bool)
+        bad = hit if rounds >= _SMOOTH_ROUNDS else hit | flips
+        since = 0 if bad.sum() < least or rounds == _SMOOTH_ROUNDS else since + 1
+        least = min(least, int(bad.sum()))
+        if not bad.any() or since > _PATIENCE:
+            return D, rounds
         before = D
         if rounds < _SMOOTH_ROUNDS:
             D = _smoothed(V, D, patches, np.unique(F[bad]), thickness, rounds)
-            if rounds >= 2:
-                D = _shortened(V, F, D, patches, pairs % m, thickness)
+            if pairs is not None:
+                D = _shortened(V, F, D, patches, pairs % len(F), thickness)
         else:
             D = _retreated(V, F, D, patches, np.unique(F[bad]), thickness)
-        moved = at_any_corner((before != D).any(1), F)
-        touched = np.flatnonzero(moved)
-        flips[touched] = flipped(V, F[touched], D)
-        changed = None if changed is None else changed | moved
+        changed = at_any_corner((before != D).any(1), F)
+        flips[changed] = flipped(V, F[changed], D)
+        if pairs is not None:
+            pairs = _renewed(V, V + D, both, pairs, changed, cell)
         rounds += 1
-    return D, {"folds_left": int((flips | hit).sum()), "crossings_left": int(hit.sum()), "rounds": rounds}
+    return D, rounds
+
+
+def _hit(pairs: Ints, hopeless: Bools) -> Bools:
+    """Mark faces that cross, but those that the outer sheet itself spoils."""
+    hit = np.zeros(len(hopeless), bool)
+    hit[pairs[~hopeless[pairs % len(hopeless)].any(1)].ravel() % len(hopeless)] = True
+    return hit
 
 
 def flipped(V: Floats, F: Ints, D: Floats) -> Bools:

@@ -6,15 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.solid.bodies import Body, arrays, body, largest, sound
+from meshjig.background import Background
+from meshjig.measure import mesh_volume
 from meshjig.solid.borders import border_chains
-from meshjig.solid.cutters import border_cutters, walls
-from meshjig.solid.pieces import solidify
-from meshjig.types import Floats, Ints
+from meshjig.solid.carve import Carved, carve
+from meshjig.solid.offsets import Offsets, Strip, mitered
+from meshjig.solid.pieces import Solid, solidify
+from meshjig.solid.wall_edges import split_bent_walls
+from meshjig.solid.walls import most_bend, wall_strip
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["kerf"]
 
-_SHORTEST = 0.003  # mm; details of the booleans below this are dissolved
+_WORTH_A_CHILD = 60_000  # faces of all solids
+_OWN_SHARE = 0.55  # of the faces; the child has to start first
 
 
 def kerf(
@@ -43,45 +48,87 @@ def kerf(
 
     Returns
     -------
-    solids : list of (V, F), by piece number, closed and in one part
+    solids : list of (V, F), by piece number, closed and in one part; a number without faces has none
     facts : dict
-        Those of `solidify`; "discarded_volume_share", "split": pieces that lost parts, by number;
-        "segments", "slabs", "rounded", "hulls" as in `border_cutters`; "failed": pieces that could not be cut.
+        Those of `solidify`; "discarded_volume_share" and "split": the pieces that lost parts by it;
+        "segments": quads of wall; "rounded": joints too sharp for a miter; "hulls": quads too twisted for
+        one; "taken_apart", "mended": pieces whose slabs or folds had to be repaired;
+        "crossing", "uncut": pieces for which that failed, by number.
 
     Notes
     -----
-    Two pieces have a point of their common border, or two of their borders with a third piece, on any
-    straight way between them; each keeps half the gap from it.
+    On a straight way between two pieces there is a point of their common wall, or one of each's wall with a
+    third piece; a piece keeps half the gap from all of its walls.
     """
-    chains = border_chains(F, piece_of_face)
     if wall is not None:
+        at = border_chains(F, piece_of_face).vertex
         D = D.copy()
-        D[chains.vertex] = wall[chains.vertex]
+        D[at] = wall[at]
+    if clearance > 0:
+        V, F, piece_of_face, D = split_bent_walls(V, F, piece_of_face, D, most_bend(clearance))
     solids, facts = solidify(V, F, piece_of_face, D)
-    if clearance == 0:
-        return [(solid.V, solid.F) for solid in solids], facts | {"discarded_volume_share": 0.0, "split": []}
-    strip, after, line = walls(V, D, chains, clearance)
-    cutters, counts = border_cutters(strip, after, clearance)
-    of_piece: list[list[Body]] = [[] for _ in solids]
-    for quads, cutter in cutters:
-        for piece in chains.pair[line[quads[0]]]:
-            of_piece[piece].append(cutter)
-    made, lost, kept, split, failed = [], 0.0, 0.0, [], []
-    for i, solid in enumerate(solids):
-        whole = body(solid.V, solid.F)
-        rest, gone, parts = largest(_difference(whole, of_piece[i]))
-        if not sound(rest):
-            failed.append(i)
-            rest = whole
-        lost, kept = lost + gone, kept + float(rest.volume())
-        if parts:
-            split.append(i)
-        made.append(arrays(rest))
-    share = lost / max(lost + kept, 1e-300)
-    return made, facts | counts | {"discarded_volume_share": share, "split": split, "failed": failed}
+    chains = border_chains(F, piece_of_face)
+    if clearance == 0 or not len(chains.pair):
+        return [(solid.V, solid.F) for solid in solids], facts | _counts({}, 0.0)
+    strip, line = wall_strip(V, D, F, chains, clearance)
+    offsets = mitered(strip, clearance / 2)
+    pair = chains.pair[line]
+    first = _first_half(solids)
+    small = sum(len(solid.F) for solid in solids) < _WORTH_A_CHILD
+    child = Background(carve, *_part(solids, strip, offsets, pair, ~first), clearance, alone=small)
+    try:
+        carved = carve(*_part(solids, strip, offsets, pair, first), clearance)
+        carved |= child.result()
+    except BaseException:
+        child.cancel()
+        raise
+    volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
+    facts |= _counts(carved, volume)
+    facts |= {
+        "segments": len(pair),
+        "rounded": int(((strip.after >= 0) & (offsets.after < 0)).sum()),
+        "hulls": int(offsets.failed.sum()),
+    }
+    empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
+    return [carved[i][:2] if i in carved else empty for i in range(len(solids))], facts
 
 
-def _difference(solid: Body, cutters: list[Body]) -> Body:
-    import manifold3d
+def _counts(carved: dict[int, Carved], volume: float) -> dict[str, Any]:
+    lost = sum(piece.lost for piece in carved.values())
 
-    return manifold3d.Manifold.batch_boolean([solid, *cutters], manifold3d.OpType.Subtract).simplify(_SHORTEST)
+    def those(state: str) -> list[int]:
+        return sorted(i for i, piece in carved.items() if piece.state == state)
+
+    return {
+        "discarded_volume_share": lost / max(lost + volume, 1e-300),
+        "split": sorted(i for i, piece in carved.items() if piece.parts),
+        "taken_apart": those("rounded"),
+        "mended": those("mended"),
+        "crossing": those("crosses"),
+        "uncut": those("uncut"),
+    }
+
+
+def _first_half(solids: list[Solid]) -> Bools:
+    """Choose pieces on one side of the model, with about half of the faces; (p,) bool."""
+    size = np.array([len(solid.F) for solid in solids])
+    centre = np.array([solid.V.mean(0) if len(solid.V) else np.zeros(3) for solid in solids])
+    order = np.argsort(centre[:, np.ptp(centre, axis=0).argmax()], kind="stable")
+    first = np.zeros(len(solids), bool)
+    first[order[np.cumsum(size[order]) <= _OWN_SHARE * size.sum()]] = True
+    return first
+
+
+def _part(
+    solids: list[Solid], strip: Strip, offsets: Offsets, pair: Ints, chosen: Bools
+) -> tuple[dict[int, Solid], Strip, Offsets, Ints]:
+    """Give some of the pieces, and the walls around them."""
+    kept = np.flatnonzero(chosen[pair].any(1))
+    number = np.append(np.full(len(pair), -1), -1)
+    number[kept] = np.arange(len(kept))
+    return (
+        {int(i): solids[i] for i in np.flatnonzero(chosen) if len(solids[i].F)},
+        Strip(strip.corners[kept], strip.rising[kept], number[strip.after[kept]]),
+        Offsets(offsets.moves[kept], number[offsets.after[kept]], offsets.failed[kept]),
+        pair[kept],
+    )

@@ -10,11 +10,12 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["inward_room", "thin_share"]
 
 _SHARE = 0.45  # of the way through the model; two walls meet at half
+_FAR = 1e9  # mm
 _TILT = np.deg2rad(35.0)
 _OPPOSITE = -0.7  # cosine between normals: a tilted ray counts when it ends on a surface that faces back
 
 
-def inward_room(V: Floats, F: Ints, d: Floats) -> Floats:
+def inward_room(V: Floats, F: Ints, d: Floats, enough: float = np.inf) -> Floats:
     """Measure how deep a wall may go at each vertex before it meets the one from the other side.
 
     One ray goes straight inward. Four tilted rays find what it misses behind folds and in corners.
@@ -24,6 +25,7 @@ def inward_room(V: Floats, F: Ints, d: Floats) -> Floats:
     V : (n, 3) float64, mm
     F : (m, 3) int64, oriented outward
     d : (n, 3) float64, unit, outward
+    enough : float, mm; tilted rays need not find out whether there is more room than that
 
     Returns
     -------
@@ -42,11 +44,13 @@ def inward_room(V: Floats, F: Ints, d: Floats) -> Floats:
     N = area_vectors(V, F)
     N /= np.maximum(np.linalg.norm(N, axis=1), 1e-300)[:, None]
     origin = V - 1e-3 * d
+    start = origin.astype(np.float32)
     side, across = _frame(d)
     depth = np.full(len(V), np.inf)
     for angle, around in [(0.0, 0.0), *((_TILT, k * np.pi / 2) for k in range(4))]:
         ray = -np.cos(angle) * d + np.sin(angle) * (np.cos(around) * side + np.sin(around) * across)
-        face = scene.run(origin.astype(np.float32), ray.astype(np.float32))
+        far = min(enough / _SHARE / np.cos(angle), _FAR) if angle else _FAR
+        face = scene.run(start, ray.astype(np.float32), np.full(len(V), far, np.float32))
         hit = np.flatnonzero(face >= 0)
         n = N[face[hit]]
         facing = np.einsum("ij,ij->i", ray[hit], n)

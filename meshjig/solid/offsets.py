@@ -6,150 +6,120 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.measure import unit
+from meshjig.measure import area_vectors, unit
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Offsets", "Strip", "mitered"]
 
-_OVER = 1.08  # a side may stand off by this much more than asked
-_UNDER = 0.985
+_LEAST, _MOST = 0.985, 1.08  # distances of a side from its wall that pass for 1
 _LONGEST = 1.2  # miters beyond this are replaced by round joints
 _UPRIGHT = 0.5  # cosine between a triangle and its offset
 _STEADY = 1e-3  # pull towards the plain normal where the normals leave a direction open
-_SPECK = 3e-3  # mm, triangles lower than this fold unseen
-_ROUNDS = 12
+_SPECK = 3e-3  # mm, triangles lower than this may fold: booleans dissolve them
+
+# the triangles of a quad; corners are 0 top, 1 bottom where it starts, 2 top, 3 bottom where it ends
+_FALLING = [[0, 2, 3], [0, 3, 1]]
+_RISING = [[0, 2, 1], [2, 3, 1]]
 
 
 class Strip(NamedTuple):
-    """Quads of wall, each given by its four corners and split from first[0] to last[1]."""
+    """Quads of wall, each split into two triangles."""
 
-    first: tuple[Floats, Floats]  # (s, 3) each, mm, top and bottom where a quad starts
-    last: tuple[Floats, Floats]  # top and bottom where it ends
+    corners: Floats  # (s, 4, 3), mm: top and bottom where a quad starts, top and bottom where it ends
+    rising: Bools  # (s,), the diagonal leads from bottom to top, not from top to bottom
+    after: Ints  # (s,), the quad that follows in the same line, or -1
 
 
 class Offsets(NamedTuple):
-    """How a strip is thickened; joint s leads from quad s to after[s]."""
+    """How a strip is thickened."""
 
+    moves: Floats  # (s, 4, 3), mm, from a corner to its place on the left side
     after: Ints  # (s,), the quad that follows without a break, or -1
-    first: tuple[Floats, Floats]  # (s, 3) each, mm, from a corner to its place on the left side
-    last: tuple[Floats, Floats]
     failed: Bools  # (s,), quads that can't be thickened by moving their corners
 
 
-def mitered(strip: Strip, after: Ints, half: float) -> Offsets:
+def mitered(strip: Strip, half: float) -> Offsets:
     """Find for every corner the vector that moves all triangles around it by the same distance.
 
     Parameters
     ----------
     strip : Strip
-    after : (s,) int64, the quad that follows each, or -1; no quad follows two
     half : float, mm
 
     Returns
     -------
     Offsets
-        Joints that are too sharp, or whose offset would fold, are broken.
+        Joints that are too sharp, or beside which a triangle would fold, are broken.
 
     Notes
     -----
-    A corner's normals n are solved for n . x = half by least squares; with up to three of them, as a smooth
-    strip has, the solution is exact.
+    A corner's normals n are solved for n . x = half by least squares; with up to three of them, as a strip
+    has, the solution is exact where it is steady.
     """
-    (ta, ba), (tb, bb) = strip
-    upper, lower = np.cross(tb - ta, bb - ta), np.cross(bb - ta, ba - ta)
-    height = [_heights(ta, tb, bb, upper), _heights(ta, ba, bb, lower)]
-    normals = unit(upper), unit(lower)
-    weight = np.linalg.norm(upper, axis=1), np.linalg.norm(lower, axis=1)
-    for _ in range(_ROUNDS):
-        slot, n = _slots(after)
-        solve = _Solver(slot, n, normals, weight)
-        x = solve.vectors()
-        poor = solve.poor(x)
-        folded = _folded(strip, slot, x * half, (upper, lower), height)
-        bad = folded | poor[slot[0]] | poor[slot[1]]
-        broken = (after >= 0) & (poor[slot[1]] | folded | folded[after])
+    after = strip.after
+    while True:  # each round breaks a joint at least
+        vertex, X = _joined(strip, after)
+        F = np.where(strip.rising[:, None, None], vertex[:, _RISING], vertex[:, _FALLING]).reshape(-1, 3)
+        x, poor = _solved(X, F)
+        large = _large(X, F)
+        folded = (large & _folded(X, F, x * half)).reshape(-1, 2).any(1)
+        poor_end = np.asarray(poor[vertex[:, 2:]].any(1))
+        broken = (after >= 0) & (poor_end | folded | folded[after])
         if not broken.any():
             break
         after = np.where(broken, -1, after)
-    top, bottom = x[0] * half, x[1] * half
-    return Offsets(after, (top[slot[0]], bottom[slot[0]]), (top[slot[1]], bottom[slot[1]]), bad)
+    alone = after < 0
+    alone[after[after >= 0]] = False
+    failed = folded | poor[vertex].any(1) | alone & ~large.reshape(-1, 2).all(1)
+    return Offsets(half * x[vertex], after, np.asarray(failed))
 
 
-def _slots(after: Ints) -> tuple[tuple[Ints, Ints], int]:
-    """Number the ends of quads so that joined ends share a number; (start, end), and how many there are."""
+def _joined(strip: Strip, after: Ints) -> tuple[Ints, Floats]:
+    """Number the corners so that joined ends are one; (s, 4), and the points, (n, 3)."""
     s = len(after)
     start = np.full(s, -1)
     joined = np.flatnonzero(after >= 0)
     start[after[joined]] = joined
     free = np.flatnonzero(start < 0)
     start[free] = s + np.arange(len(free))
-    return (start, np.arange(s)), s + len(free)
+    end = np.arange(s)
+    n = s + len(free)
+    X = np.concatenate(
+        [strip.corners[:, 2], strip.corners[free, 0], strip.corners[:, 3], strip.corners[free, 1]]
+    )
+    return np.stack([start, start + n, end, end + n], 1), X
 
 
-class _Solver:
-    """The corners' equations: which normals meet in which slot, at the top [0] and at the bottom [1]."""
-
-    def __init__(
-        self, slot: tuple[Ints, Ints], n: int, normals: tuple[Floats, Floats], weight: tuple[Floats, Floats]
-    ) -> None:
-        a, b = slot
-        upper, lower = (np.arange(len(a)), np.arange(len(a)) + len(a))
-        self._n = n
-        self._slot = np.concatenate([a, b, a]), np.concatenate([b, a, b])
-        self._row = np.concatenate([upper, upper, lower]), np.concatenate([upper, lower, lower])
-        self._normal = np.concatenate(normals)
-        self._weight = np.concatenate(weight)
-
-    def vectors(self) -> Floats:
-        """Give the offset vectors for distance 1, (2, n, 3)."""
-        return np.stack([self._solved(k) for k in (0, 1)])
-
-    def poor(self, x: Floats) -> Bools:
-        """Mark slots that keep a distance other than 1 from one of their triangles, (n,)."""
-        poor = (np.linalg.norm(x, axis=2) > _LONGEST).any(0)
-        for k in (0, 1):
-            distance, counts = self._distances(k, x[k])
-            off = counts & ((distance < _UNDER) | (distance > _OVER))
-            poor[self._slot[k][off]] = True
-        return poor
-
-    def _solved(self, k: int) -> Floats:
-        slot, N = self._slot[k], self._normal[self._row[k]]
-        w = np.maximum(self._weight[self._row[k]], 1e-9)
-        entries = [w * N[:, i] * N[:, j] for i in range(3) for j in range(3)]
-        M = np.stack([np.bincount(slot, e, self._n) for e in entries], 1).reshape(-1, 3, 3)
-        r = np.stack([np.bincount(slot, w * N[:, i], self._n) for i in range(3)], 1)
-        trace = np.trace(M, axis1=1, axis2=2)[:, None, None]
-        pull = _STEADY * trace * np.eye(3)
-        x = np.linalg.solve(M + pull + 1e-30 * np.eye(3), r[:, :, None] + pull @ unit(r)[:, :, None])[:, :, 0]
-        distance, counts = self._distances(k, x)
-        least = np.ones(self._n)
-        np.minimum.at(least, slot[counts], distance[counts])
-        return np.asarray(x / np.clip(least, 0.7, 1)[:, None])
-
-    def _distances(self, k: int, x: Floats) -> tuple[Floats, Bools]:
-        """Give how far each triangle moves at each corner, and whether the triangle is worth a look."""
-        row = self._row[k]
-        return np.einsum("ij,ij->i", self._normal[row], x[self._slot[k]]), self._weight[row] > 1e-6
+def _solved(X: Floats, F: Ints) -> tuple[Floats, Bools]:
+    """Give each vertex's offset for distance 1, (n, 3), and mark those that keep another distance, (n,)."""
+    area = area_vectors(X, F)
+    weight = np.repeat(np.maximum(np.linalg.norm(area, axis=1), 1e-9), 3)
+    N, at, n = np.repeat(unit(area), 3, axis=0), F.ravel(), len(X)
+    counts = weight > 1e-6
+    entries = [np.bincount(at, weight * N[:, i] * N[:, j], n) for i in range(3) for j in range(3)]
+    M = np.stack(entries, 1).reshape(-1, 3, 3)
+    r = np.stack([np.bincount(at, weight * N[:, i], n) for i in range(3)], 1)
+    pull = np.trace(M, axis1=1, axis2=2)[:, None] * _STEADY
+    M[:, range(3), range(3)] += pull + 1e-30
+    x = np.linalg.solve(M, (r + pull * unit(np.asarray(r, np.float64)))[:, :, None])[:, :, 0]
+    least = np.ones(n)
+    np.minimum.at(least, at[counts], np.einsum("ij,ij->i", N, x[at])[counts])
+    x = x / np.clip(least, 0.7, 1)[:, None]
+    distance = np.einsum("ij,ij->i", N, x[at])
+    poor = np.linalg.norm(x, axis=1) > _LONGEST
+    poor[at[counts & ((distance < _LEAST) | (distance > _MOST))]] = True
+    return x, poor
 
 
-def _folded(
-    strip: Strip, slot: tuple[Ints, Ints], x: Floats, area: tuple[Floats, Floats], height: list[Floats]
-) -> Bools:
-    """Mark quads with a triangle whose offset, to either side, turns away from it."""
-    (ta, ba), (tb, bb) = strip
-    folded = np.zeros(len(ta), bool)
-    for side in (1.0, -1.0):
-        pa, pb = ta + side * x[0][slot[0]], tb + side * x[0][slot[1]]
-        qa, qb = ba + side * x[1][slot[0]], bb + side * x[1][slot[1]]
-        moved = np.cross(pb - pa, qb - pa), np.cross(qb - pa, qa - pa)
-        for n, m, h in zip(area, moved, height, strict=True):
-            cosine = np.einsum("ij,ij->i", unit(n), unit(m))
-            folded |= (cosine < _UPRIGHT) & (h > _SPECK)
-    return folded
+def _folded(X: Floats, F: Ints, x: Floats) -> Bools:
+    """Mark triangles whose offset, to either side, turns away from them, (m,)."""
+    area = area_vectors(X, F)
+    left, right = (unit(area_vectors(X + side, F)) for side in (x, -x))
+    cosine = np.minimum(np.einsum("ij,ij->i", unit(area), left), np.einsum("ij,ij->i", unit(area), right))
+    return np.asarray(cosine < _UPRIGHT)
 
 
-def _heights(a: Floats, b: Floats, c: Floats, area: Floats) -> Floats:
-    """Give the least height of triangles, (s,), mm."""
-    longest = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-    return np.asarray(np.linalg.norm(area, axis=1) / np.maximum(longest, 1e-300))
+def _large(X: Floats, F: Ints) -> Bools:
+    """Mark triangles that are high enough to be seen, (m,)."""
+    longest = np.linalg.norm(X[F] - X[F[:, [1, 2, 0]]], axis=2).max(1)
+    return np.asarray(np.linalg.norm(area_vectors(X, F), axis=1) > _SPECK * longest)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.solid.smoothing import solve_screened
-from meshjig.types import Floats, Ints
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Patches"]
 
@@ -20,9 +20,10 @@ class Patches:
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64
+    held : (n,) bool, vertices that no patch takes in
     """
 
-    def __init__(self, V: Floats, F: Ints) -> None:
+    def __init__(self, V: Floats, F: Ints, held: Bools | None = None) -> None:
         from scipy.sparse import coo_matrix, diags
 
         n = len(V)
@@ -32,13 +33,14 @@ class Patches:
         weights.data[:] = 1.0
         self.degree = np.asarray(weights.sum(1)).ravel()
         self._L = (diags(self.degree) - weights).tocsr()
+        self._held = np.zeros(n, bool) if held is None else held
         length = np.linalg.norm(V[F] - V[F[:, [1, 2, 0]]], axis=2)
         corners = np.maximum(np.bincount(i, minlength=n), 1)
         self.edge: Floats = np.bincount(i, length.ravel(), n) / corners  # mean length at each vertex, mm
         self.mean_edge = float(length.mean())
 
     def around(self, core: Ints, radius: float) -> Ints:
-        """List the vertices within about a radius (mm) of some, those included; one ring at least."""
+        """List the vertices within about a radius (mm) of some, those included, but none that is held."""
         mark = np.zeros(len(self.degree), bool)
         front = np.unique(core)
         mark[front] = True
@@ -46,7 +48,7 @@ class Patches:
             reached = np.unique(self._L[front].indices)
             front = reached[~mark[reached]]
             mark[front] = True
-        return np.flatnonzero(mark)
+        return np.flatnonzero(mark & ~self._held)
 
     def smoothed(self, values: Floats, scale: float, patch: Ints) -> Floats:
         """Smooth values (n, d) inside a patch, with all outside held; details below the scale (mm) go.

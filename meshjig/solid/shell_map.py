@@ -2,30 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from meshjig.errors import SolidError
-from meshjig.measure import face_areas
+from meshjig.measure import face_areas, mesh_volume
 from meshjig.solid.directions import smooth_normals
 from meshjig.solid.embedding import unfold
 from meshjig.solid.local_thickness import inward_room, thin_share
+from meshjig.solid.rounded import rounded
 from meshjig.solid.smoothing import Smoother
 from meshjig.solid.surface_distance import SurfaceDistance
 from meshjig.topology import border_halfedges
 from meshjig.types import Floats, Ints
 
-__all__ = ["check_thickness", "displacement"]
+__all__ = ["check_thickness", "displacement", "laid", "thinness"]
 
 _POSITION_SCALE = 0.3  # of the thickness: bumps below it are not carried to the inner sheet
 _LEAST_ROOM = 0.15  # mm; a wall is not planned thinner
+_ROUGHLY = 3e-3  # tolerance for what is small itself
 _CORRECTIONS = 2
-MITER = True
+_EXACT = 0.02  # of the thickness; what moves less keeps the depth that was read
+_HOPELESS = 1e-3  # share of the faces that may be left crossing
+_CROWDED = 1 / 3  # share of the area that may be thin
 _THIN = 0.8  # of the thickness
 
 
-def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str, Any]]:
+def displacement(
+    V: Floats, F: Ints, thickness: float, *, join: Literal["miter", "round"] = "miter"
+) -> tuple[Floats, dict[str, Any]]:
     """Lay an inner sheet under a surface.
 
     Directions are normals averaged over the thickness, positions those of a slightly smoothed copy of the
@@ -37,38 +43,106 @@ def displacement(V: Floats, F: Ints, thickness: float) -> tuple[Floats, dict[str
     V : (n, 3) float64, mm
     F : (m, 3) int64, manifold, oriented outward; may be open or have several components
     thickness : float, mm
+    join : {"miter", "round"}
+        Whether offset creases stay sharp or are rounded; rounded joins are for closed meshes.
 
     Returns
     -------
     D : (n, 3) float64, mm; V + D is the inner sheet
-    facts : dict; {"thin_area_share": share of the area that is below 0.8 of the thickness,
-        "min_thickness": shortest D, mm, "folds_left": faces whose inner side still flips or crosses,
-        "crossings_left": those that cross, "rounds": int}
+    facts : dict
+        "thin_area_share", "min_thickness" and "thinnest_at" as in `thinness`; "join_method": str, how creases
+        were joined; "folds_left": faces whose inner side still flips or crosses, "crossings_left": those that
+        cross, "outer_crossings" and "rounds" as in `unfold`.
 
     Raises
     ------
     SolidError
-        The model is too thin for walls this thick.
+        The model is too thin for walls this thick, or the sheets would cross in many places.
 
     Notes
     -----
     Linear in the mesh. Sheets that don't cross keep the sheets of every piece apart; its walls, ruled along
     D, may still cut into them where the surface overhangs and D leans.
     """
+    D, distance, facts = laid(V, F, thickness, join)
+    return D, thinness(V, F, distance, thickness) | facts
+
+
+def laid(
+    V: Floats, F: Ints, thickness: float, join: Literal["miter", "round"]
+) -> tuple[Floats, Floats, dict[str, Any]]:
+    """Lay an inner sheet; give D, how far V + D is from the surface (n,), and facts."""
     smoother = Smoother(V, F)
     d = smooth_normals(V, F, smoother, thickness)
-    room = inward_room(V, F, d)
+    room = inward_room(V, F, d, enough=thickness)
     check_thickness(V, F, thickness, room)
     depth = _depth(F, thickness, room, smoother)
     D = _drift(V, depth, thickness, smoother) - depth[:, None] * d
-    surface = SurfaceDistance(V, F)
+    gauge = _Gauge(V, F, join)
     for _ in range(_CORRECTIONS):
-        distance = surface.behind_planes(V + D) if MITER else surface.nearest(V + D)[0]
-        D = _corrected(V, F, D, d, depth, room, thickness, smoother, distance)
-    D, folds = unfold(V, F, D, thickness)
-    length = np.linalg.norm(D, axis=1)
-    thin = thin_share(V, F, length < _THIN * thickness)
-    return D, {"thin_area_share": thin, "min_thickness": float(length.min()), **folds}
+        lack = depth - gauge.read(D, _EXACT * thickness)[0]
+        D = _corrected(D, d, lack, room, thickness, smoother)
+    facts: dict[str, Any] = {"join_method": "plane distances"}
+    if join == "round":
+        exact, facts = rounded(V, F, D, thickness, gauge.surface)
+        D = np.where(depth[:, None] > 0.99 * thickness, exact, D)
+    distance = gauge.read(D, _EXACT * thickness)[1] - _EXACT * thickness
+    D, folds = unfold(V, F, D, thickness, distance)
+    distance = gauge.read(D, _EXACT * thickness)[1]
+    if folds["crossings_left"] > _HOPELESS * len(F) and not folds["outer_crossings"]:
+        _refuse_crowds(V, F, thickness, room, distance)
+    return D, distance, facts | folds
+
+
+def _refuse_crowds(V: Floats, F: Ints, thickness: float, room: Floats, distance: Floats) -> None:
+    """Refuse a wall that crosses itself where much of it is too thin as well: the model lacks the room."""
+    if thin_share(V, F, distance < _THIN * thickness) > _CROWDED:
+        fits = _quantile(room[F].mean(1), face_areas(V, F), _CROWDED) / _THIN
+        raise _too_thick(thickness, min(fits, _THIN * thickness))
+
+
+class _Gauge:
+    """Read how deep an inner sheet is, again only where it has moved since."""
+
+    def __init__(self, V: Floats, F: Ints, join: Literal["miter", "round"]) -> None:
+        self.surface = SurfaceDistance(V, F)
+        self._V, self._join = V, join
+        self._depth, self._distance = np.zeros(len(V)), np.zeros(len(V))
+        self._D = np.full_like(V, np.inf)
+
+    def read(self, D: Floats, within: float) -> tuple[Floats, Floats]:
+        """Give depth (n,), as the join counts it, and distance (n,), mm, both within some mm."""
+        old = np.flatnonzero(~(np.linalg.norm(D - self._D, axis=1) <= within))
+        points = (self._V + D)[old]
+        if self._join == "miter":
+            self._depth[old], self._distance[old] = self.surface.behind_planes(points)
+        else:
+            self._depth[old] = self._distance[old] = self.surface.distance(points)
+        self._D[old] = D[old]
+        return self._depth.copy(), self._distance.copy()
+
+
+def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> dict[str, Any]:
+    """Say how much of the area is too thin, how thin, and where.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    distance : (n,) float64, mm, from one sheet to the other
+    thickness : float, mm, that was wanted
+
+    Returns
+    -------
+    {"thin_area_share": share of the area under 0.8 of the thickness, "min_thickness": mm,
+        "thinnest_at": [x, y, z]}
+    """
+    least = int(distance.argmin())
+    return {
+        "thin_area_share": thin_share(V, F, distance < _THIN * thickness),
+        "min_thickness": float(distance[least]),
+        "thinnest_at": V[least].tolist(),
+    }
 
 
 def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
@@ -87,22 +161,26 @@ def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
         The thickness is over a third of a closed model's smallest extent, or twice what more than half of
         the surface has room for; the sentence names the largest thickness that works.
     """
-    largest = 2 * _median(room[F].mean(1), face_areas(V, F))
-    if not len(border_halfedges(F)):
-        largest = min(largest, float(np.ptp(V[F.ravel()], axis=0).min()) / 3)
-    if thickness <= largest:
-        return
+    largest = 2 * _quantile(room[F].mean(1), face_areas(V, F), 0.5)
+    third = float(np.ptp(V[F.ravel()], axis=0).min()) / 3
+    if thickness > third and mesh_volume(V, F) > 0 and not len(border_halfedges(F)):
+        largest = min(largest, third)
+    if thickness > largest:
+        raise _too_thick(thickness, largest)
+
+
+def _too_thick(thickness: float, largest: float) -> SolidError:
     step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
-    raise SolidError(
+    return SolidError(
         f"walls of {thickness:g} mm are too thick for this model",
         hint=f"the largest thickness that works at this size is {np.floor(largest / step) * step:.3g} mm",
     )
 
 
-def _median(values: Floats, weights: Floats) -> float:
+def _quantile(values: Floats, weights: Floats, q: float) -> float:
     order = np.argsort(values)
     share = np.cumsum(weights[order])
-    return float(values[order[np.searchsorted(share, share[-1] / 2)]])
+    return float(values[order[np.searchsorted(share, q * share[-1])]])
 
 
 def _depth(F: Ints, thickness: float, room: Floats, smoother: Smoother) -> Floats:
@@ -111,7 +189,7 @@ def _depth(F: Ints, thickness: float, room: Floats, smoother: Smoother) -> Float
     lowest = depth.copy()
     np.minimum.at(lowest, F.ravel(), np.repeat(depth[F].min(1), 3))
     if (lowest < thickness).any():
-        depth = np.minimum(depth, smoother(lowest, thickness))
+        depth = np.minimum(depth, smoother(lowest, thickness, tolerance=_ROUGHLY))
     return np.maximum(depth, _LEAST_ROOM)
 
 
@@ -121,19 +199,19 @@ def _drift(V: Floats, depth: Floats, thickness: float, smoother: Smoother) -> Fl
     Smoothing what smoothing took away puts most of the shrinkage back.
     """
     scale = _POSITION_SCALE * thickness
-    once = smoother(V, scale)
-    drift = once + smoother(V - once, scale) - V
+    centred = V - V.mean(0)
+    once = smoother(centred, scale, tolerance=1e-4)
+    drift = once + smoother(centred - once, scale, tolerance=_ROUGHLY) - centred
     length = np.linalg.norm(drift, axis=1)
     share = np.minimum(depth / thickness, _POSITION_SCALE * thickness / np.maximum(length, 1e-9))
     return drift * np.minimum(1.0, share)[:, None]
 
 
 def _corrected(
-    V: Floats, F: Ints, D: Floats, d: Floats, depth: Floats, room: Floats, thickness: float, smoother: Smoother,
-    distance: Floats,
+    D: Floats, d: Floats, lack: Floats, room: Floats, thickness: float, smoother: Smoother
 ) -> Floats:
-    """Move the inner sheet along d by what its true distance to the surface lacks."""
-    lack = np.clip(depth - distance, -0.3 * thickness, 0.4 * thickness)
-    D = D - smoother(lack, _POSITION_SCALE * thickness)[:, None] * d
+    """Move the inner sheet along d by what it lacks in depth, within the room there is."""
+    lack = np.clip(lack, -0.3 * thickness, 0.4 * thickness)
+    D = D - smoother(lack, _POSITION_SCALE * thickness, tolerance=_ROUGHLY)[:, None] * d
     beyond = -np.einsum("ij,ij->i", D, d) - np.maximum(room, _LEAST_ROOM)
     return D + np.maximum(0.0, beyond)[:, None] * d

@@ -1,24 +1,27 @@
-"""Fewer points on a line, within a tolerance."""
+"""Fewer points on the lines that walls stand on, within a tolerance."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from meshjig.solid.wall_edges import bends
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["simplified"]
 
 
-def simplified(points: list[Floats], start: Ints, tolerance: float) -> Bools:
-    """Choose the points that several parallel copies of some lines can't do without (Douglas-Peucker).
+def simplified(X: Floats, Y: Floats, start: Ints, tolerance: float, bend: float) -> Bools:
+    """Choose the points of some lines that walls ruled from X to Y can't do without.
 
     Parameters
     ----------
-    points : list of (n, 3) float64, mm
-        The copies. A point stays when any copy needs it.
+    X, Y : (n, 3) float64, mm, the walls' top and bottom
     start : (c + 1,) int64
         Where each line starts; the last entry is n. A line has two points at least.
     tolerance : float, mm
+        How far the two lines of a wall may move.
+    bend : float, mm
+        How far a twisted quad's diagonal may be from the ruled wall.
 
     Returns
     -------
@@ -26,7 +29,8 @@ def simplified(points: list[Floats], start: Ints, tolerance: float) -> Bools:
 
     Notes
     -----
-    All lines are split at once, so the cost is a few passes over the points.
+    The rule of Douglas and Peucker for both lines at once. All lines are split together, so the cost is a few
+    passes over the points.
 
     References
     ----------
@@ -36,27 +40,29 @@ def simplified(points: list[Floats], start: Ints, tolerance: float) -> Bools:
     keep = np.zeros(int(start[-1]), bool)
     low, high = start[:-1], start[1:] - 1
     keep[low] = keep[high] = True
-    while len(low):
-        count = high - low - 1
-        low, high, count = low[count > 0], high[count > 0], count[count > 0]
+    while True:
+        open_ = high - low > 1
+        low, high = low[open_], high[open_]
         if not len(low):
-            break
+            return keep
+        count = high - low - 1
         at = np.cumsum(count) - count
         inner = np.arange(count.sum()) - np.repeat(at - low - 1, count)
         i, j = np.repeat(low, count), np.repeat(high, count)
-        off = np.max([_distances(P[inner], P[i], P[j]) for P in points], axis=0)
+        off = np.maximum(_distances(X[inner], X[i], X[j]), _distances(Y[inner], Y[i], Y[j]))
         worst = np.maximum.reduceat(off, at)
         is_worst = np.flatnonzero(off == np.repeat(worst, count))
-        where = is_worst[np.searchsorted(is_worst, at)]
-        split = worst > tolerance
-        middle = inner[where[split]]
+        middle = inner[is_worst[np.searchsorted(is_worst, at)]]
+        bent = (worst <= tolerance) & (bends(X, Y, low, high) > bend)
+        middle = np.where(bent, (low + high) // 2, middle)
+        split = bent | (worst > tolerance)
+        low, middle, high = low[split], middle[split], high[split]
         keep[middle] = True
-        low, high = np.concatenate([low[split], middle]), np.concatenate([middle, high[split]])
-    return keep
+        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
 
 
 def _distances(P: Floats, A: Floats, B: Floats) -> Floats:
     """Give the distances of points to the segments from A to B, (n,), mm."""
     d, w = B - A, P - A
     along = np.einsum("ij,ij->i", w, d) / np.maximum(np.einsum("ij,ij->i", d, d), 1e-300)
-    return np.linalg.norm(w - np.clip(along, 0, 1)[:, None] * d, axis=1)
+    return np.asarray(np.linalg.norm(w - np.clip(along, 0, 1)[:, None] * d, axis=1))

@@ -6,11 +6,11 @@ import numpy as np
 
 from meshjig.measure import unit
 from meshjig.solid.offsets import Offsets, Strip
-from meshjig.types import Floats, Ints
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["slabs"]
 
-_CAP = np.radians([67.5, 22.5, -22.5, -67.5])  # an octagon around the end, sides along the wall
+_CAP = np.radians([67.5, 22.5, -22.5, -67.5])  # corners of an octagon around the end, sides along the wall
 
 
 def slabs(strip: Strip, offsets: Offsets, half: float) -> list[tuple[Ints, Floats, Ints]]:
@@ -29,86 +29,82 @@ def slabs(strip: Strip, offsets: Offsets, half: float) -> list[tuple[Ints, Float
     """
     made = []
     for quads, closed in _runs(offsets):
-        s = slice(quads[0], quads[-1] + 1) if _consecutive(quads) else quads
-        rows = [
-            np.concatenate([first[s], last[quads[-1:]]])
-            for first, last in zip(strip.first, strip.last, strict=True)
-        ]
-        moves = [
-            np.concatenate([first[s], last[quads[-1:]]])
-            for first, last in zip(offsets.first, offsets.last, strict=True)
-        ]
-        made.append((quads, *_slab(rows, moves, half, closed)))
+        rows, moves = (
+            np.concatenate([x[quads, :2], x[quads[-1:], 2:]]) for x in (strip.corners, offsets.moves)
+        )
+        made.append((quads, *_slab(rows, moves, strip.rising[quads], half, closed)))
     return made
-
-
-def _consecutive(quads: Ints) -> bool:
-    return bool(quads[-1] - quads[0] + 1 == len(quads))
 
 
 def _runs(offsets: Offsets) -> list[tuple[Ints, bool]]:
     """List the quads of every run, and whether it is a ring."""
-    after = np.where(offsets.failed, -1, offsets.after)
-    follower = np.zeros(len(after), bool)
-    follower[after[after >= 0]] = True
-    runs, taken = [], offsets.failed.copy()
-    following = after.tolist()
-    for s in [*np.flatnonzero(~follower).tolist(), *range(len(after))]:
+    after = offsets.after
+    follows = np.zeros(len(after), bool)
+    follows[after[after >= 0]] = True
+    runs, taken, following = [], offsets.failed.tolist(), after.tolist()
+    for s in [*np.flatnonzero(~follows).tolist(), *range(len(after))]:
         if taken[s]:
             continue
         run = [s]
         while (s := following[s]) >= 0 and s != run[0]:
             run.append(s)
-        taken[run] = True
+        for q in run:
+            taken[q] = True
         runs.append((np.array(run), s >= 0))
     return runs
 
 
-def _slab(rows: list[Floats], moves: list[Floats], half: float, closed: bool) -> tuple[Floats, Ints]:
-    """Give the mesh around one run; rows are its points at the top and at the bottom."""
-    (top, bottom), (up, down) = rows, moves
-    n = len(top) - closed
-    V = np.concatenate([top[:n] + up[:n], top[:n] - up[:n], bottom[:n] + down[:n], bottom[:n] - down[:n]])
-    i = np.arange(len(top) - 1)
-    j = (i + 1) % n
-    tl, tr, bl, br = (np.stack([i, j], 1) + k * n for k in range(4))
-    F = np.concatenate([_quads(tr, tl), _quads(bl, br), _quads(tl, bl), _quads(br, tr, turned=True)])
+def _slab(rows: Floats, moves: Floats, rising: Bools, half: float, closed: bool) -> tuple[Floats, Ints]:
+    """Give the mesh around one run; rows (k + 1, 2, 3) are its points at the top and at the bottom."""
+    n = len(rows) - closed
+    left, right = rows[:n] + moves[:n], rows[:n] - moves[:n]
+    V = np.concatenate([left[:, 0], right[:, 0], left[:, 1], right[:, 1]])
+    i = np.arange(len(rising))
+    ends = np.stack([i, (i + 1) % n], 1)
+    tl, tr, bl, br = ends, ends + n, ends + 2 * n, ends + 3 * n
+    level = np.zeros(len(i), bool)
+    F = np.concatenate(
+        [_quads(tr, tl, level), _quads(bl, br, level), _quads(tl, bl, rising), _quads(br, tr, ~rising)]
+    )
     if closed:
         return V, F
-    caps = [_cap(rows, moves, half, n, end) for end in (0, 1)]
-    V = np.concatenate([V, caps[0][0], caps[1][0]])
-    return V, np.concatenate([F, caps[0][1], caps[1][1] + np.where(caps[1][1] >= 4 * n, 8, 0)])
+    over, under, caps = [], [], []
+    for end in (0, 1):
+        caps.append(_cap(rows, moves, half, end))
+        at, first = end * (n - 1), 4 * n + 8 * end
+        ring = np.array([[at, *range(first, first + 4), n + at]])
+        low = np.array([[2 * n + at, *range(first + 4, first + 8), 3 * n + at]])
+        if not end:
+            ring, low = ring[:, ::-1], low[:, ::-1]
+        over.append(ring)
+        under.append(low)
+    F = np.concatenate([F, *(_lid(o, u) for o, u in zip(over, under, strict=True))])
+    return np.concatenate([V, *caps]), F
 
 
-def _quads(x: Ints, y: Ints, turned: bool = False) -> Ints:
-    """Give two triangles for each quad between x (k, 2) and y (k, 2)."""
-    if turned:
-        return np.concatenate(
-            [np.stack([x[:, 0], x[:, 1], y[:, 0]], 1), np.stack([x[:, 1], y[:, 1], y[:, 0]], 1)]
-        )
-    return np.concatenate(
-        [np.stack([x[:, 0], x[:, 1], y[:, 1]], 1), np.stack([x[:, 0], y[:, 1], y[:, 0]], 1)]
-    )
+def _quads(x: Ints, y: Ints, rising: Bools) -> Ints:
+    """Give two triangles for each quad between x and y (k, 2); rising: the diagonal ends at x[:, 1]."""
+    (a, b), (c, d) = x.T, y.T
+    first = np.stack([a, b, np.where(rising, c, d)], 1)
+    second = np.stack([np.where(rising, b, a), d, c], 1)
+    return np.concatenate([first, second])
 
 
-def _cap(rows: list[Floats], moves: list[Floats], half: float, n: int, end: int) -> tuple[Floats, Ints]:
-    """Give the eight points and the faces that close a slab at its start or end."""
-    k = -1 if end else 0
-    axis = unit(rows[0][k] - rows[1][k])
+def _cap(rows: Floats, moves: Floats, half: float, end: int) -> Floats:
+    """Give the points around one end, left to right, four at the top and four at the bottom."""
+    points, left = rows[-end], unit(moves[-end])
+    axis = unit(points[0] - points[1])
+    ahead = unit(np.cross(left, axis)) * (1 if end else -1)
     radius = half / np.cos(np.radians(22.5))
-    points = []
-    for row, move in zip(rows, moves, strict=True):
-        left = unit(move[k])
-        ahead = unit(np.cross(left, axis)) * (1 if end else -1)
-        points.append(row[k] + radius * (np.cos(_CAP)[:, None] * ahead + np.sin(_CAP)[:, None] * left))
-    at = n - 1 if end else 0
-    over = np.array([at, *range(4 * n, 4 * n + 4), n + at])
-    under = np.array([2 * n + at, *range(4 * n + 4, 4 * n + 8), 3 * n + at])
+    around = np.cos(_CAP)[:, None] * ahead[:, None] + np.sin(_CAP)[:, None] * left[:, None]
+    return np.asarray((points[:, None] + radius * around).reshape(-1, 3))
+
+
+def _lid(over: Ints, under: Ints) -> Ints:
+    """Give the faces of a round end between rings of six points (1, 6), clockwise seen from above."""
+    o, u = over[0], under[0]
     m = np.arange(1, 5)
-    lids = [
-        np.stack([np.full(4, over[0]), over[m + 1], over[m]], 1),
-        np.stack([np.full(4, under[0]), under[m], under[m + 1]], 1),
-    ]
-    sides = _quads(np.stack([over[:-1], over[1:]], 1), np.stack([under[:-1], under[1:]], 1))
-    F = np.concatenate([*lids, sides])
-    return np.concatenate(points), F if end else F[:, ::-1]
+    top = np.stack([np.full(4, o[0]), o[m + 1], o[m]], 1)
+    bottom = np.stack([np.full(4, u[0]), u[m], u[m + 1]], 1)
+    sides = _quads(np.stack([o[:-1], o[1:]], 1), np.stack([u[:-1], u[1:]], 1), np.zeros(5, bool))
+    return np.concatenate([top, bottom, sides])

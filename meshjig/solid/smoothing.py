@@ -30,31 +30,32 @@ class Smoother:
         self.mass = _vertex_areas(V, F)
         self.L = _laplacian(V, F)
 
-    def __call__(self, values: Floats, scale: float) -> Floats:
+    def __call__(self, values: Floats, scale: float, tolerance: float = _TOLERANCE) -> Floats:
         """Smooth values, one row a vertex.
 
         Parameters
         ----------
         values : (n,) or (n, d) float64
         scale : float, mm; details smaller than about this go
+        tolerance : float, of the values' own size
 
         Returns
         -------
         float64, the shape of values
         """
-        return self.solve((values.T * self.mass).T, scale, start=values)
+        return self.solve((values.T * self.mass).T, scale, start=values, tolerance=tolerance)
 
-    def solve(self, integrals: Floats, scale: float, start: Floats) -> Floats:
+    def solve(self, integrals: Floats, scale: float, start: Floats, tolerance: float = _TOLERANCE) -> Floats:
         """Solve (M + scale^2/2 L) x = integrals from a first guess; shapes as in a call."""
         x = start.reshape(len(self.mass), -1)
         b = integrals.reshape(x.shape)
         L = (scale * scale / 2) * self.L
-        change = solve_screened(L, self.mass, b - self.mass[:, None] * x - L @ x, b)
+        change = solve_screened(L, self.mass, b - self.mass[:, None] * x - L @ x, b, tolerance)
         return (x + change).reshape(start.shape)
 
 
-def solve_screened(L: Any, mass: Floats, rhs: Floats, size: Floats) -> Floats:
-    """Solve (M + L) x = rhs for several columns, until the residual is a small part of size.
+def solve_screened(L: Any, mass: Floats, rhs: Floats, size: Floats, tolerance: float = _TOLERANCE) -> Floats:
+    """Solve (M + L) x = rhs for several columns, until the residual is below a part of size.
 
     Parameters
     ----------
@@ -62,6 +63,7 @@ def solve_screened(L: Any, mass: Floats, rhs: Floats, size: Floats) -> Floats:
     mass : (n,) float64, positive
     rhs : (n, d) float64
     size : (n, d) float64, what the residual is measured against, column by column
+    tolerance : float, that part
 
     Returns
     -------
@@ -78,7 +80,7 @@ def solve_screened(L: Any, mass: Floats, rhs: Floats, size: Floats) -> Floats:
     z = r / diagonal
     p = z.copy()
     rz = np.einsum("ij,ij->j", r, z)
-    enough = _TOLERANCE**2 * np.maximum(np.einsum("ij,ij->j", size, size / diagonal), 1e-300)
+    enough = tolerance**2 * np.maximum(np.einsum("ij,ij->j", size, size / diagonal), 1e-300)
     for _ in range(_MAX_ITERATIONS):
         if (rz <= enough).all():
             break

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.measure import area_vectors, barycentric, unit
-from meshjig.types import Floats, Ints
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["SurfaceDistance"]
 
@@ -27,6 +27,13 @@ class SurfaceDistance:
         self._V, self._F = V, F
         self._tree = igl.AABB()
         self._tree.init(V, F)
+        self._normal = unit(area_vectors(V, F))
+        self._corner_face = np.argsort(F.ravel(), kind="stable") // 3  # faces by vertex
+        self._first = np.concatenate([[0], np.cumsum(np.bincount(F.ravel(), minlength=len(V)))])
+
+    def distance(self, points: Floats) -> Floats:
+        """Give the distances of points (k, 3) to the surface, (k,), mm."""
+        return self.nearest(points)[0]
 
     def nearest(self, points: Floats) -> tuple[Floats, Ints, Floats]:
         """Find the nearest points of the surface.
@@ -40,7 +47,7 @@ class SurfaceDistance:
         squared, face, foot = self._tree.squared_distance(self._V, self._F, points)
         return np.sqrt(squared), face, foot
 
-    def behind_planes(self, points: Floats, cap: float = 2.0) -> Floats:
+    def behind_planes(self, points: Floats, cap: float = 2.0) -> tuple[Floats, Floats]:
         """Measure how deep points lie under the planes that meet where the surface is nearest.
 
         Where all points of one depth form a sheet, it has sharp creases: a mitered join. It equals the
@@ -53,7 +60,8 @@ class SurfaceDistance:
 
         Returns
         -------
-        (k,) float64, mm: the largest depth under one of the planes
+        depth : (k,) float64, mm, the largest under one of the planes
+        distance : (k,) float64, mm
         """
         distance, face, foot = self.nearest(points)
         inside = barycentric(self._V, self._F, face, foot) > _ON_RIM
@@ -61,21 +69,19 @@ class SurfaceDistance:
         depth = distance.copy()
         if len(rim):
             depth[rim] = np.maximum(distance[rim] / cap, self._deepest(points, rim, face, inside))
-        return np.minimum(depth, distance)
+        return np.minimum(depth, distance), distance
 
-    def _deepest(self, points: Floats, rim: Ints, face: Ints, inside: Floats) -> Floats:
+    def _deepest(self, points: Floats, rim: Ints, face: Ints, inside: Bools) -> Floats:
         """Give the depth of points[rim] under the faces that share the edge or corner they are nearest to."""
-        corner_face = np.argsort(self._F.ravel(), kind="stable") // 3
-        start = np.concatenate([[0], np.cumsum(np.bincount(self._F.ravel(), minlength=len(self._V)))])
-        normal = unit(area_vectors(self._V, self._F))
+        start = self._first
         nearest_corner = inside[rim].argmax(1)
         v = self._F[face[rim], nearest_corner]
         count = start[v + 1] - start[v]
         owner = np.repeat(np.arange(len(rim)), count)
         first = np.cumsum(count) - count
-        around = corner_face[np.arange(count.sum()) - np.repeat(first - start[v], count)]
+        around = self._corner_face[np.arange(count.sum()) - np.repeat(first - start[v], count)]
         edge = inside[rim].sum(1) == 2
         other = self._F[face[rim], 2 - inside[rim][:, ::-1].argmax(1)]
         shares = (self._F[around] == other[owner][:, None]).any(1) | ~edge[owner]
-        height = np.einsum("ij,ij->i", self._V[v[owner]] - points[rim[owner]], normal[around])
+        height = np.einsum("ij,ij->i", self._V[v[owner]] - points[rim[owner]], self._normal[around])
         return np.maximum.reduceat(np.where(shares, height, -np.inf), first)

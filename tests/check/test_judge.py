@@ -15,6 +15,7 @@ CHECKS = {
     "overlap_mm3",
     "gap_mm",
     "thickness_mm",
+    "thin_walls",
     "area_error",
     "discarded_volume_share",
     "interlocked_borders",
@@ -68,12 +69,48 @@ def test_each_promise_can_be_broken_and_names_the_piece(second, promise, blamed)
     assert verdict.failures[promise] == blamed
 
 
-def test_what_is_exempt_is_measured_but_not_held_against_the_puzzle():
-    pieces = [GOOD[0], pushed(GOOD[1], 0.02)]
-    assert not judge(pieces, **ASKED).ok
-    verdict = judge(pieces, **ASKED, exempt=["gap_mm"])
+def test_what_an_exempt_piece_breaks_is_named_but_not_held_against_the_puzzle():
+    pieces = [("a", *GOOD[0]), ("b", *pushed(GOOD[1], 0.3)), ("c", *pushed(folded_plate(), 100))]
+    assert set(judge(pieces, **ASKED).failures) == {"overlap_mm3", "gap_mm", "self_intersections"}
+    verdict = judge(pieces, **ASKED, exempt_pieces=["b", "c"])
     assert verdict.ok
-    assert verdict.failures == {"gap_mm": ["piece_001", "piece_002"]}
+    assert verdict.exempt == {"self_intersections": ["c"], "overlap_mm3": ["b"], "gap_mm": ["b"]}
+    assert verdict.checks["self_intersections"] > 0
+
+
+def test_an_exempt_piece_does_not_excuse_the_others():
+    row = [box([10 * k, 0, 0], [10 * k + 9.9, 10, 2]) for k in range(4)]
+    verdict = judge(row, **ASKED, exempt_pieces=["piece_001"])
+    assert verdict.failures == {"gap_mm": ["piece_002", "piece_003", "piece_004"]}
+    assert verdict.exempt == {"gap_mm": ["piece_001"]}
+
+
+def test_an_exempt_piece_must_still_be_closed():
+    verdict = judge([("a", *without_a_face(GOOD[0]))], exempt_pieces=["a"])
+    assert verdict.failures["closed"] == ["a"]
+    assert not verdict.ok
+
+
+@pytest.mark.parametrize(("gap", "wide"), [(0.205, False), (0.218, False), (0.23, True), (0.9, True), (5.0, True)])
+def test_a_gap_too_wide_is_seen_between_named_neighbours(gap, wide):
+    row = [box([(10 + gap) * k, 0, 0], [(10 + gap) * k + 10, 10, 2]) for k in range(3)]
+    verdict = judge(row, neighbours=[(0, 1), (1, 2)], clearance=0.2)
+    assert verdict.failures == ({"gap_wide_mm": ["piece_001", "piece_002", "piece_003"]} if wide else {})
+
+
+def test_one_wide_gap_among_many_is_named():
+    row = [box([10.2 * k + (k > 2) * 0.07, 0, 0], [10.2 * k + 10 + (k > 2) * 0.07, 10, 2]) for k in range(6)]
+    verdict = judge(row, neighbours=[(k, k + 1) for k in range(5)], clearance=0.2)
+    assert verdict.failures == {"gap_wide_mm": ["piece_003", "piece_004"]}
+
+
+def test_walls_too_thin_for_the_process_are_named_and_break_no_promise():
+    pieces = [("thick", *box([0, 0, 0], [9, 9, 2])), ("thin", *box([10, 0, 0], [19, 9, 1]))]
+    verdict = judge(pieces, min_wall=1.2)
+    assert verdict.checks["thin_walls"] == 1
+    assert verdict.named == {"thin_walls": ["thin"]}
+    assert verdict.ok
+    assert judge(pieces).checks["thin_walls"] is None
 
 
 def test_a_piece_that_breaks_a_promise_twice_is_named_once_and_in_order():

@@ -1,0 +1,155 @@
+"""Rebuild the outer surface of a mesh that crosses itself."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from meshjig.errors import InputError
+from meshjig.measure import face_areas
+from meshjig.scan.contour import Contour, contour
+from meshjig.scan.crossings import self_crossings
+from meshjig.scan.facing import turn_by_sight
+from meshjig.scan.field import signed_field
+from meshjig.scan.repair import repair
+from meshjig.scan.well_composed import well_composed
+from meshjig.topology import edges
+from meshjig.types import Floats, Ints
+
+__all__ = ["Resurfaced", "resurface", "resurfacing_cell"]
+
+_FINEST = 1 / 300  # of the largest extent
+_FACES_A_CELL = 3.2  # faces that an area of one squared cell gets, at most
+_NEAR = 2.0  # cells: what is farther from the other surface has no counterpart there
+_MOST_CAPPED = 0.06  # of the new surface: with more over holes, the old one was not nearly closed
+_MOST_LOST = 0.1  # of the old area: with more left outside, it bounds no solid
+_SHORTEST = 0.05  # cells: vertices nearer to each other are taken apart
+_STEP = 0.25  # of the way back to the middle of its cube, that a vertex goes then, or when its faces cross
+_PATIENCE = 8  # steps before the neighbours go back too
+
+
+class Resurfaced(NamedTuple):
+    """A closed surface without crossings, and how far it is from the old one."""
+
+    V: Floats  # (n, 3)
+    F: Ints  # (m, 3)
+    facts: dict[str, Any]
+
+
+def resurface(V: Floats, F: Ints, cell: float, *, cavities: bool = False) -> Resurfaced:
+    """Rebuild the outer surface of a closed or nearly closed mesh that may cross itself.
+
+    The zero surface of the signed distance, sampled on a grid, is closed, manifold and oriented by its
+    making. Creases stay sharp; what is thinner than a cell may close up or vanish. Where faces still
+    cross, vertices go back towards the middle of their cubes until none do. Open sheets are first turned
+    to the side from which they are seen.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold, as `repair` leaves it
+    cell : float, mm, edge of a cube of the grid
+    cavities : bool, whether shells that lie inside the solid stay
+
+    Returns
+    -------
+    Resurfaced
+        facts holds ``cell_mm``; ``off_mm``, the ``median``, ``p99`` and ``max`` distance of the new
+        vertices from the old surface, those over holes left out; ``capped_area_share``, of the new
+        area, over holes; ``lost_area_share``, of the old area, neither near the new surface nor inside.
+
+    Raises
+    ------
+    InputError
+        The surface is open, or bounds nothing.
+
+    Notes
+    -----
+    About 2 s for 100,000 faces.
+    """
+    F = turn_by_sight(V, F)
+    field = signed_field(V, F, cell)
+    if not len(field.cubes):
+        raise _too_open("it bounds no solid")
+    if field.over_holes > _MOST_CAPPED:
+        raise _holes(field.over_holes)
+    made = contour(well_composed(field))
+    new, G, _ = repair(_uncrossed(made, cell), made.F, cavities=cavities)
+    off, capped, lost = _deviation(V, F, new, G, cell)
+    if capped > _MOST_CAPPED:
+        raise _holes(capped)
+    if lost > _MOST_LOST:
+        raise _too_open(f"{100 * lost:.0f} % of it would be lost")
+    return Resurfaced(
+        new, G, {"cell_mm": cell, "off_mm": off, "capped_area_share": capped, "lost_area_share": lost}
+    )
+
+
+def resurfacing_cell(V: Floats, F: Ints, faces: int | Literal["all"]) -> float:
+    """Say how large the cells should be for a number of faces; at least a 300th of the extent.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    faces : int or "all", the working resolution
+
+    Returns
+    -------
+    float, mm
+    """
+    finest = float(np.ptp(V, axis=0).max()) * _FINEST
+    if faces == "all":
+        return finest
+    return max(finest, float(np.sqrt(_FACES_A_CELL * face_areas(V, F).sum() / faces)))
+
+
+def _uncrossed(made: Contour, cell: float) -> Floats:
+    """Give the vertices so that no two faces cross; in the middles of their cubes, at last, none can."""
+    share = np.zeros(len(made.V))
+    V, E, turn = made.V, edges(made.F).E, 0
+    while len(moved := _in_each_others_way(V, E, made, cell)) and share.min() < 1:
+        if turn >= _PATIENCE:
+            moved = np.unique(made.F[np.isin(made.F, moved).any(axis=1)])
+        share[moved] = np.minimum(share[moved] + _STEP, 1)
+        V = made.V + share[:, None] * (made.centre - made.V)
+        turn += 1
+    return V
+
+
+def _in_each_others_way(V: Floats, E: Ints, made: Contour, cell: float) -> Ints:
+    """List the vertices of faces that cross, and of short edges the end that is farther from its middle."""
+    pairs = self_crossings(V, made.F)
+    crossing = made.F[pairs].ravel() if pairs is not None else np.zeros(0, np.int64)
+    short = E[np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1) < _SHORTEST * cell]
+    strayed = np.linalg.norm((V - made.centre)[short], axis=2).argmax(axis=1)
+    return np.unique(np.concatenate([crossing, short[np.arange(len(short)), strayed]]))
+
+
+def _deviation(
+    V: Floats, F: Ints, new: Floats, G: Ints, cell: float
+) -> tuple[dict[str, float], float, float]:
+    """Say how far new vertices are from the old surface, and what shares of area are new and lost."""
+    import igl
+
+    distance = np.sqrt(igl.point_mesh_squared_distance(new, V, F)[0])
+    median, high, most = np.percentile(distance[distance <= _NEAR * cell], [50, 99, 100]).tolist()
+    area = face_areas(new, G)
+    over_hole = (distance[G] > cell).all(axis=1)
+    middle = V[F].mean(axis=1)
+    lost = igl.point_mesh_squared_distance(middle, new, G)[0] > (_NEAR * cell) ** 2
+    lost[lost] = np.asarray(igl.fast_winding_number(new, G, middle[lost])) < 0.5
+    old = face_areas(V, F)
+    shares = float(area[over_hole].sum() / area.sum()), float(old[lost].sum() / old.sum())
+    return {"median": median, "p99": high, "max": most}, *shares
+
+
+def _holes(share: float) -> InputError:
+    return _too_open(f"its holes would make {100 * share:.0f} % or more of the new surface")
+
+
+def _too_open(why: str) -> InputError:
+    return InputError(
+        f"the mesh is too open to be resurfaced: {why}", hint="close its holes, or leave resurfacing off"
+    )

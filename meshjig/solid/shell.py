@@ -1,0 +1,81 @@
+"""The shell: where the wall of a model lies, between an outer and an inner sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from meshjig.errors import SolidError
+from meshjig.solid.shell_map import laid, thinness
+from meshjig.topology import border_halfedges
+from meshjig.types import Floats, Ints
+
+__all__ = ["Shell", "shell"]
+
+_COUNTS = ("folds_left", "crossings_left", "outer_crossings", "rounds")
+
+
+@dataclass(frozen=True)
+class Shell:
+    """Two sheets over the same faces: outer, and outer + D, the inner one."""
+
+    outer: Floats  # (n, 3), mm
+    D: Floats  # (n, 3), mm
+    facts: dict[str, Any] = field(default_factory=dict)
+
+
+def shell(
+    V: Floats,
+    F: Ints,
+    thickness: float,
+    *,
+    side: Literal["in", "out", "both"] = "in",
+    join: Literal["miter", "round"] = "miter",
+) -> Shell:
+    """Give a surface a thickness, to one side or half to each.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold, oriented outward; may be open or have several components
+    thickness : float, mm
+    side : {"in", "out", "both"}
+        The surface is the outer sheet, the inner one, or the middle.
+    join : {"miter", "round"}
+        Whether an offset crease stays sharp, or turns about the crease at an even distance.
+
+    Returns
+    -------
+    Shell
+        Its facts are "side", "join", and those of `displacement`.
+
+    Raises
+    ------
+    SolidError
+        The model is too thin for walls this thick, or is open and the join round.
+
+    Notes
+    -----
+    Outward is inward on the mesh turned inside out. Both halves keep clear of the surface between them, so
+    the sheets can't cross each other.
+    """
+    if join == "round" and len(border_halfedges(F)):
+        raise SolidError(
+            "the rounded join needs a closed model, since the offset of an open surface wraps around its rim",
+            hint="use the mitered join, or close the model's holes",
+        )
+    walls = []
+    share = 0.5 if side == "both" else 1.0
+    if side != "out":
+        walls.append((1.0, *laid(V, F, share * thickness, join)))
+    if side != "in":
+        walls.append((-1.0, *laid(V, F[:, ::-1], share * thickness, join)))
+    D = sum((sign * step for sign, step, _, _ in walls), np.zeros_like(V))
+    outer = V if side == "in" else V + walls[-1][1]
+    distance = sum((reach for _, _, reach, _ in walls), np.zeros(len(V)))
+    facts = walls[0][3]
+    for key in _COUNTS:
+        facts[key] = sum(wall[3][key] for wall in walls)
+    return Shell(outer, D, {"side": side, "join": join} | thinness(V, F, distance, thickness) | facts)

@@ -1,0 +1,92 @@
+"""Edges between pieces made short enough for the walls ruled along them to be smooth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.measure import unit
+from meshjig.topology import edges
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["bends", "split_bent_walls"]
+
+_ROUNDS = 24
+
+
+def split_bent_walls(
+    V: Floats, F: Ints, piece_of_face: Ints, D: Floats, tolerance: float
+) -> tuple[Floats, Ints, Ints, Floats]:
+    """Halve the edges between pieces along which a wall turns too much to be two triangles.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    piece_of_face : (m,) int64
+    D : (n, 3) float64, mm
+    tolerance : float, mm, between a wall's diagonal and the surface ruled along D
+
+    Returns
+    -------
+    V, F, piece_of_face, D
+        The same surface and the same sheet, with more vertices; the old ones come first.
+    """
+    for _ in range(_ROUNDS):
+        e = edges(F)
+        between = np.zeros(len(e.E), bool)
+        between[e.edge_of_halfedge[np.repeat(piece_of_face, 3) != piece_of_face[e.twin // 3]]] = True
+        bent = between & (bends(V, V + D, *e.E.T) > tolerance)
+        if not bent.any():
+            break
+        alone = _one_a_face(e.edge_of_halfedge.reshape(-1, 3), bent)
+        V, F, piece_of_face, D = _halved(V, F, piece_of_face, D, e.edge_of_halfedge, e.E, alone)
+    return V, F, piece_of_face, D
+
+
+def bends(X: Floats, Y: Floats, i: Ints, j: Ints) -> Floats:
+    """Give how far the diagonals of quads lie from the surface ruled between X and Y.
+
+    Parameters
+    ----------
+    X, Y : (n, 3) float64, mm
+    i, j : (k,) int64, where a quad starts and ends
+
+    Returns
+    -------
+    (k,) float64, mm
+    """
+    normal = unit(np.cross(X[j] - X[i] + Y[j] - Y[i], Y[i] - X[i] + Y[j] - X[j]))
+    return np.asarray(np.abs(np.einsum("ij,ij->i", Y[j] - X[j] - Y[i] + X[i], normal)) / 4)
+
+
+def _one_a_face(edges_of_face: Ints, wanted: Bools) -> Bools:
+    """Choose wanted edges so that no face has two of them, (e,)."""
+    n = len(wanted)
+    rank = np.where(wanted, np.arange(n), n)
+    least = rank[edges_of_face].min(1)  # the first wanted edge of each face
+    chosen = wanted.copy()
+    later = rank[edges_of_face] > least[:, None]
+    chosen[edges_of_face[later]] = False
+    return chosen
+
+
+def _halved(
+    V: Floats, F: Ints, piece: Ints, D: Floats, edge_of_halfedge: Ints, E: Ints, chosen: Bools
+) -> tuple[Floats, Ints, Ints, Floats]:
+    """Put a vertex in the middle of each chosen edge, of which a face has one at most."""
+    new = np.cumsum(chosen) - 1 + len(V)
+    a, b = E[chosen].T
+    h = np.flatnonzero(chosen[edge_of_halfedge])
+    f, k = h // 3, h % 3
+    middle = new[edge_of_halfedge[h]]
+    first, second = F[f].copy(), F[f].copy()
+    first[np.arange(len(h)), (k + 1) % 3] = middle
+    second[np.arange(len(h)), k] = middle
+    F = F.copy()
+    F[f] = first
+    return (
+        np.concatenate([V, (V[a] + V[b]) / 2]),
+        np.concatenate([F, second]),
+        np.concatenate([piece, piece[f]]),
+        np.concatenate([D, (D[a] + D[b]) / 2]),
+    )
