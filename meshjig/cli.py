@@ -146,7 +146,9 @@ def check(
         verdict = judge(pieces, **(asked._asdict() | flags))
         result = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
         result |= {"exempt": verdict.exempt, "ok": verdict.ok}
-        print(json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks | {"names": verdict.named}))
+        print(
+            json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks | {"names": verdict.named})
+        )
     if not verdict.ok:
         _tell_broken(verdict.failures)
         raise typer.Exit(BROKEN_PROMISE)
@@ -184,7 +186,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
 def _sentences(verbose: bool, quiet: bool) -> Iterator[None]:
     """Turn whatever goes wrong into one sentence on standard error, and an exit code."""
     level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
-    logging.basicConfig(level=level, stream=sys.stderr, format="%(message)s")
+    logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(message)s")
     logging.getLogger("meshjig").setLevel(level)
     try:
         yield

@@ -42,7 +42,7 @@ class Options(BaseModel):
     min_neck: FiniteFloat = Field(2.0, ge=0, description="least width of a knob's neck, mm")
     min_wall: FiniteFloat = Field(1.2, ge=0, description="least thickness that prints well, mm")
     clearance_method: Literal["stretch", "domain", "solid"] = Field(
-        "stretch", description="how the gap is made: in the plane, or cut from the solids"
+        "solid", description="how the gap is made: cut from the solids, or laid out in the plane"
     )
     join: Literal["miter", "round"] = Field("miter", description="inner sheet along creases")
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")

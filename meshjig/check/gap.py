@@ -44,7 +44,6 @@ class Gap:
             "within_10pct": None if within is None else float(within.mean()),
         }
 
-
     def wide(self, limit: float) -> list[tuple[int, int]]:
         """List the neighbours that are farther apart than a limit, mm.
 

@@ -21,6 +21,7 @@ class Contour(NamedTuple):
 
     V: Floats  # (n, 3)
     F: Ints  # (m, 3), facing outward
+    middle: Floats  # (n, 3), in the middle of where each cube's edges cross the surface
     centre: Floats  # (n, 3), the middles of the cubes: with its vertices there, no surface crosses itself
 
 
@@ -51,7 +52,7 @@ def contour(field: Field) -> Contour:
     middle = _sums(cube, edge[at], n) / count[:, None]
     low = field.points(field.cubes)
     V = middle + _within(_toward_planes(cube, at, foot, normal, middle), middle, low, field.cell)
-    return Contour(V, _triangles(V, quads, foot), low + field.cell / 2)
+    return Contour(V, _triangles(V, quads, foot), middle, low + field.cell / 2)
 
 
 def _crossings(field: Field) -> tuple[Floats, Ints]:

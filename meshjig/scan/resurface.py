@@ -22,10 +22,10 @@ __all__ = ["Resurfaced", "resurface", "resurfacing_cell"]
 _FINEST = 1 / 300  # of the largest extent
 _FACES_A_CELL = 3.2  # faces that an area of one squared cell gets, at most
 _NEAR = 2.0  # cells: what is farther from the other surface has no counterpart there
-_MOST_CAPPED = 0.06  # of the new surface: with more over holes, the old one was not nearly closed
+_MOST_CAPPED = 0.07  # of the new surface: with more over holes, the old one was not nearly closed
 _MOST_LOST = 0.1  # of the old area: with more left outside, it bounds no solid
 _SHORTEST = 0.05  # cells: vertices nearer to each other are taken apart
-_STEP = 0.25  # of the way back to the middle of its cube, that a vertex goes then, or when its faces cross
+_STEP = 0.5  # of a leg on the way back, that a vertex goes then, or when its faces cross
 _PATIENCE = 8  # steps before the neighbours go back too
 
 
@@ -41,9 +41,8 @@ def resurface(V: Floats, F: Ints, cell: float, *, cavities: bool = False) -> Res
     """Rebuild the outer surface of a closed or nearly closed mesh that may cross itself.
 
     The zero surface of the signed distance, sampled on a grid, is closed, manifold and oriented by its
-    making. Creases stay sharp; what is thinner than a cell may close up or vanish. Where faces still
-    cross, vertices go back towards the middle of their cubes until none do. Open sheets are first turned
-    to the side from which they are seen.
+    making. Creases stay sharp; what is thinner than a cell may close up or vanish. Open sheets are first
+    turned to the side from which they are seen.
 
     Parameters
     ----------
@@ -106,14 +105,19 @@ def resurfacing_cell(V: Floats, F: Ints, faces: int | Literal["all"]) -> float:
 
 
 def _uncrossed(made: Contour, cell: float) -> Floats:
-    """Give the vertices so that no two faces cross; in the middles of their cubes, at last, none can."""
-    share = np.zeros(len(made.V))
+    """Give the vertices so that no two faces cross.
+
+    Those that are in the way go back in two legs: to the middle of the surface in their cube, then to the
+    middle of the cube. Where all have come so far, none can cross.
+    """
+    way = np.zeros((len(made.V), 1))
     V, E, turn = made.V, edges(made.F).E, 0
-    while len(moved := _in_each_others_way(V, E, made, cell)) and share.min() < 1:
+    while len(moved := _in_each_others_way(V, E, made, cell)) and way.min() < 2:
         if turn >= _PATIENCE:
             moved = np.unique(made.F[np.isin(made.F, moved).any(axis=1)])
-        share[moved] = np.minimum(share[moved] + _STEP, 1)
-        V = made.V + share[:, None] * (made.centre - made.V)
+        way[moved] = np.minimum(way[moved] + _STEP, 2)
+        V = made.V + np.minimum(way, 1) * (made.middle - made.V)
+        V = V + np.maximum(way - 1, 0) * (made.centre - V)
         turn += 1
     return V
 

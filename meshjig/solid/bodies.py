@@ -36,9 +36,12 @@ def sound(solid: Body) -> bool:
 
 
 def largest(solid: Body) -> tuple[Body, float, int]:
-    """Give the largest connected part, the volume of the others in mm3, and their number."""
+    """Give the largest connected part, the volume of the others in mm3, and their number.
+
+    Hollows inside count as parts without volume.
+    """
     parts = sorted(solid.decompose(), key=lambda part: -float(part.volume()))
     if not parts:
         return solid, 0.0, 0
-    lost = sum(float(part.volume()) for part in parts[1:])
+    lost = sum(max(float(part.volume()), 0.0) for part in parts[1:])
     return parts[0], lost, len(parts) - 1

@@ -62,13 +62,13 @@ def mitered(strip: Strip, half: float) -> Offsets:
         F = np.where(strip.rising[:, None, None], vertex[:, _RISING], vertex[:, _FALLING]).reshape(-1, 3)
         x, poor = _solved(X, F)
         large = _large(X, F)
-        folded = (large & _folded(X, F, x * half)).reshape(-1, 2).any(1)
+        folded = np.asarray((large & _folded(X, F, x * half)).reshape(-1, 2).any(1))
         poor_end = np.asarray(poor[vertex[:, 2:]].any(1))
         broken = (after >= 0) & (poor_end | folded | folded[after])
         if not broken.any():
             break
         after = np.where(broken, -1, after)
-    alone = after < 0
+    alone = np.asarray(after < 0)
     alone[after[after >= 0]] = False
     failed = folded | poor[vertex].any(1) | alone & ~large.reshape(-1, 2).all(1)
     return Offsets(half * x[vertex], after, np.asarray(failed))

@@ -31,16 +31,20 @@ def split_bent_walls(
     V, F, piece_of_face, D
         The same surface and the same sheet, with more vertices; the old ones come first.
     """
+    rest, rest_piece = F[:0], piece_of_face[:0]
     for _ in range(_ROUNDS):
         e = edges(F)
         between = np.zeros(len(e.E), bool)
         between[e.edge_of_halfedge[np.repeat(piece_of_face, 3) != piece_of_face[e.twin // 3]]] = True
         bent = between & (bends(V, V + D, *e.E.T) > tolerance)
-        if not bent.any():
-            break
+        done = ~bent[e.edge_of_halfedge].reshape(-1, 3).any(1)  # faces that won't change any more
+        rest, rest_piece = np.concatenate([rest, F[done]]), np.concatenate([rest_piece, piece_of_face[done]])
         alone = _one_a_face(e.edge_of_halfedge.reshape(-1, 3), bent)
-        V, F, piece_of_face, D = _halved(V, F, piece_of_face, D, e.edge_of_halfedge, e.E, alone)
-    return V, F, piece_of_face, D
+        F, piece_of_face, of_halfedge = F[~done], piece_of_face[~done], e.edge_of_halfedge[np.repeat(~done, 3)]
+        if not len(F):
+            break
+        V, F, piece_of_face, D = _halved(V, F, piece_of_face, D, of_halfedge, e.E, alone)
+    return V, np.concatenate([rest, F]), np.concatenate([rest_piece, piece_of_face]), D
 
 
 def bends(X: Floats, Y: Floats, i: Ints, j: Ints) -> Floats:

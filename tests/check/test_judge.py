@@ -91,7 +91,9 @@ def test_an_exempt_piece_must_still_be_closed():
     assert not verdict.ok
 
 
-@pytest.mark.parametrize(("gap", "wide"), [(0.205, False), (0.218, False), (0.23, True), (0.9, True), (5.0, True)])
+@pytest.mark.parametrize(
+    ("gap", "wide"), [(0.205, False), (0.218, False), (0.23, True), (0.9, True), (5.0, True)]
+)
 def test_a_gap_too_wide_is_seen_between_named_neighbours(gap, wide):
     row = [box([(10 + gap) * k, 0, 0], [(10 + gap) * k + 10, 10, 2]) for k in range(3)]
     verdict = judge(row, neighbours=[(0, 1), (1, 2)], clearance=0.2)
