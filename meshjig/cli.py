@@ -144,7 +144,11 @@ def check(
         flags = {"thickness": thickness, "clearance": clearance, "min_wall": min_wall}
         flags = {name: value for name, value in flags.items() if value is not None}
         verdict = judge(pieces, **(asked._asdict() | flags))
-        result = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
+        result: dict[str, Any] = {
+            "checks": verdict.checks,
+            "names": verdict.named,
+            "failures": verdict.failures,
+        }
         result |= {"exempt": verdict.exempt, "ok": verdict.ok}
         print(
             json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks | {"names": verdict.named})

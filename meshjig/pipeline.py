@@ -9,7 +9,7 @@ import numpy as np
 
 from meshjig.background import Background
 from meshjig.charts import build_atlas
-from meshjig.check import judge
+from meshjig.check import judge, touched_pieces
 from meshjig.check.interlock import interlock
 from meshjig.cut import carry_pieces, cut_curves, gap_outlines, overlay
 from meshjig.errors import OptionError
@@ -80,7 +80,7 @@ def make_puzzle(
         with stages("clearance"):
             parts = _leave_gaps(atlas, layout, options)
         with stages("solid"):
-            sheets, scan.facts["self_crossings"] = beside.result()
+            sheets, scan.facts["self_crossings"], crossing = beside.result()
             solids, solid_facts = _solids(surface, parts, sheets, options)
     except BaseException:
         beside.cancel()
@@ -88,16 +88,21 @@ def make_puzzle(
     with stages("check"):
         locks = interlock(layout.cut, layout.knobs, layout.piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
+        touched = touched_pieces(crossing, layout.cut.parent, layout.piece_of_face)
+        exempt = [names[i] for i in sorted(touched)]
         verdict = judge(
             [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
             neighbours=locks.pairs.tolist(),
             thickness=options.thickness,
             clearance=options.clearance,
+            min_wall=options.min_wall,
+            exempt_pieces=exempt,
         )
         on_surface = parts if options.clearance_method != "solid" else None
         report = assemble_report(
             options, scan, atlas, layout, on_surface, locks, verdict, solids, solid_facts
         )
+    report["exempt_pieces"] = exempt
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
     tints = colours(len(solids), locks.pairs).tolist()
     pieces = [
@@ -108,11 +113,13 @@ def make_puzzle(
     return Puzzle(pieces, report, curves)
 
 
-def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None]:
-    """Do what needs no charts: the two sheets, and how often the mesh crosses itself."""
+def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None, Ints]:
+    """Do what needs no charts: the two sheets, how often the mesh crosses itself, and in which faces."""
     pairs = self_crossings(mesh.V, mesh.F)
+    crossing = self_crossings(surface.V, surface.F) if pairs is not None and len(pairs) else None
     sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
-    return sheets, None if pairs is None else len(pairs)
+    none: Ints = np.zeros((0, 2), np.int64)
+    return sheets, None if pairs is None else len(pairs), none if crossing is None else crossing
 
 
 def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:

@@ -80,7 +80,10 @@ def assemble_report(
         "solid": solid_facts,
         "pieces": _pieces(n, area, solids, locks),
         "checks": checks,
+        "names": verdict.named
+        | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(options.min_neck)]},
         "failures": failures,
+        "exempt": verdict.exempt,
         "ok": verdict.ok and len(failures) == len(verdict.failures),
     }
 

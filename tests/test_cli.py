@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from tests.meshes import closed_cylinder, inside_out, moebius, sphere, torus
+from tests.meshes import closed_cylinder, inside_out, joined, moebius, moved, sphere, torus
 
 
 def run(*words, cwd=None):
@@ -91,7 +91,8 @@ def test_check_judges_the_files_alone(puzzle, tmp_path):
         assert said.returncode == (0 if verdict["ok"] else 3), said.stderr
         assert verdict["checks"]["closed"] is True
         assert verdict["checks"]["area_error"] is None
-        assert verdict["checks"]["gap_mm"]["within_10pct"] is None
+        asked = verdict["checks"]["gap_mm"]["within_10pct"] is not None
+        assert asked == (source == folder)  # a report.json says what was asked for
     broken = trimesh.load(folder / "pieces/piece_001.stl")
     broken.update_faces(np.arange(len(broken.faces)) != 7)
     broken.export(tmp_path / "broken.stl")
@@ -133,6 +134,27 @@ def test_inside_out_input_is_turned_and_reported(tmp_path):
     report = json.loads(run("make", mesh, "-o", tmp_path / "out", "--pieces", 8, "--json").stdout)
     assert report["input"]["repairs"]["turned_inside_out"] == 1
     assert all(p["volume_mm3"] > 0 for p in report["pieces"])
+
+
+def test_pieces_of_a_model_that_crosses_itself_are_exempt_and_resurfacing_makes_it_whole(tmp_path):
+    mesh = saved(tmp_path / "pair.ply", joined(sphere(2000), moved(sphere(2000), [70, 0, 0])))
+    for flags in ([], ["--resurface"]):
+        said = run("make", mesh, "-o", tmp_path / "out", "--pieces", 16, "--faces", 8000, "--json", *flags)
+        report = json.loads(said.stdout)
+        touched = set(report["exempt_pieces"])
+        if flags:
+            assert (report["input"]["self_crossings"], report["input"]["components"], touched) == (
+                0,
+                1,
+                set(),
+            )
+            assert report["input"]["resurfaced"]["off_mm"]["p99"] < 0.5
+        else:
+            assert report["input"]["self_crossings"] > 0
+            assert report["checks"]["overlap_mm3"] > 1
+            assert 2 <= len(touched) < len(report["pieces"])
+            assert touched >= set(report["exempt"]["overlap_mm3"])
+            assert not touched & {name for named in report["failures"].values() for name in named}
 
 
 def bad_inputs(folder: Path):

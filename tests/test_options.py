@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from meshjig.cli import make
+from meshjig.cli import _options, make
 from meshjig.errors import OptionError
 from meshjig.options import PROCESSES, Options
 
@@ -50,3 +50,51 @@ def test_every_option_is_a_flag():
     flags = set(inspect.signature(make).parameters)
     assert set(Options.model_fields) <= flags
     assert flags - set(Options.model_fields) == {"mesh", "output", "config", "as_json", "verbose", "quiet"}
+
+
+OWN = {"resin-x": {"clearance": 0.12, "min-wall": 0.6}}
+
+
+def test_a_process_of_ones_own_sets_what_it_has_and_fdm_the_rest():
+    options = Options.of(process="resin-x", processes=OWN)
+    assert (options.process, options.clearance, options.min_wall) == ("resin-x", 0.12, 0.6)
+    assert (options.thickness, options.min_neck) == (
+        PROCESSES["fdm"]["thickness"],
+        PROCESSES["fdm"]["min_neck"],
+    )
+    assert Options.of(process="resin-x", processes=OWN, clearance=0.3).clearance == 0.3
+
+
+def test_an_unknown_process_names_those_that_are_known():
+    with pytest.raises(OptionError, match=r"^process: 'knitting'.*fdm, sla, polyjet, foam, resin-x$"):
+        Options.of(process="knitting", processes=OWN)
+
+
+@pytest.mark.parametrize("processes", [{"x": {"colour": 3}}, {"x": 3}, ["x"]])
+def test_a_process_has_four_figures_only(processes):
+    with pytest.raises(OptionError, match=r"^processes: .*min_neck, min_wall"):
+        Options.of(processes=processes)
+
+
+def test_a_figure_of_a_process_is_checked_like_any_other():
+    with pytest.raises(OptionError, match=r"^clearance: "):
+        Options.of(process="x", processes={"x": {"clearance": -1}})
+
+
+@pytest.mark.parametrize("process", [["fdm"], {"fdm": {}}, 3])
+def test_a_process_is_named_by_a_word(process):
+    with pytest.raises(OptionError, match=r"^process: "):
+        Options.of(process=process)
+
+
+@pytest.mark.parametrize(
+    ("toml", "flags"),
+    [
+        ('process = "resin-x"\n[processes.resin-x]\nclearance = 0.12\nmin-wall = 0.6\n', {}),
+        ("[process.resin-x]\nclearance = 0.12\nmin_wall = 0.6\n", {"process": "resin-x"}),
+    ],
+)
+def test_a_config_file_holds_processes(toml, flags, tmp_path):
+    (tmp_path / "shop.toml").write_text(toml)
+    options = _options(tmp_path / "shop.toml", flags)
+    assert (options.process, options.clearance, options.min_wall) == ("resin-x", 0.12, 0.6)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.check.arrays import Piece, boxes, close_boxes
-from meshjig.check.samples import Soup, area_samples, soup
+from meshjig.check.samples import Soup, area_samples, smooth_regions, soup
 from meshjig.check.solids import Body, bodies
 from meshjig.types import Bools, Floats, Ints
 
@@ -76,7 +76,8 @@ def gaps(pieces: Sequence[Piece], *, neighbours: Ints | None = None, clearance: 
 
     Two things are measured: for every pair of neighbours its least distance, by manifold3d; and over
     all the walls the distance to the nearest neighbour. A point lies on a wall when the nearest face
-    of a neighbour turns towards its own.
+    of a neighbour turns towards its own, and this is so for most of the smooth region around the point:
+    two sheets that face each other in a fold of the surface are no walls.
 
     Parameters
     ----------
@@ -134,9 +135,10 @@ def _wall_distances(
     Also give the two pieces of each, (k, 2), and the least distance met between two pieces, on walls or
     elsewhere.
     """
-    walls, between, bounds = [np.zeros(0)], [np.zeros((0, 2), np.int64)], {}
     s = soup(pieces)
     P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
+    gap, opposite, facing = np.full(len(P), np.inf), np.full(len(P), -1), np.zeros(len(P), bool)
+    bounds = {}
     low, high = s.V[s.F].min(1), s.V[s.F].max(1)
     box_low, box_high = boxes(pieces)
     of_piece = np.searchsorted(face, s.start)
@@ -149,15 +151,21 @@ def _wall_distances(
         across = across[((low[across] <= box_high[i] + reach) & (high[across] >= box_low[i] - reach)).all(1)]
         if not len(own) or not len(across):
             continue
-        nearest, distance, signed = _nearest(s, P[own], across)
-        facing = np.einsum("ij,ij->i", s.N[nearest], s.N[face[own]]) <= _FACING
-        wall = facing & (distance < reach)
-        walls.append(signed[wall])
-        across_wall = s.piece[nearest[wall]]
-        between.append(np.stack([np.minimum(i, across_wall), np.maximum(i, across_wall)], 1))
+        nearest, distance, gap[own] = _nearest(s, P[own], across)
+        opposite[own] = s.piece[nearest]
+        turned = np.einsum("ij,ij->i", s.N[nearest], s.N[face[own]]) <= _FACING
+        facing[own] = turned & (distance < reach)
         for j in others:
-            bounds[int(i), int(j)] = float(distance.min(where=s.piece[nearest] == j, initial=np.inf))
-    return np.concatenate(walls), np.concatenate(between), bounds
+            bounds[int(i), int(j)] = float(distance.min(where=opposite[own] == j, initial=np.inf))
+    wall = facing & _of_walls(smooth_regions(s)[face], facing)
+    ends = np.stack([s.piece[face[wall]], opposite[wall]], 1)
+    return gap[wall], np.sort(ends, axis=1), bounds
+
+
+def _of_walls(region: Ints, facing: Bools) -> Bools:
+    """Tell which samples lie in a region of which at least half faces a neighbour, (k,) bool."""
+    share = np.bincount(region, facing) / np.maximum(np.bincount(region), 1)
+    return (share >= 0.5)[region]
 
 
 def _nearest(s: Soup, P: Floats, faces: Ints) -> tuple[Ints, Floats, Floats]:

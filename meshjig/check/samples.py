@@ -9,9 +9,12 @@ import numpy as np
 
 from meshjig.check.arrays import Piece
 from meshjig.measure import area_vectors, interpolate
+from meshjig.topology import edges
 from meshjig.types import Floats, Ints
 
-__all__ = ["Samples", "Soup", "area_samples", "soup"]
+__all__ = ["Samples", "Soup", "area_samples", "smooth_regions", "soup"]
+
+_SMOOTH = 0.906  # cosine of 25 degrees, the most that faces of one region turn at an edge
 
 
 class Soup(NamedTuple):
@@ -57,3 +60,17 @@ def area_samples(s: Soup, n: int) -> Samples:
     a, b = np.modf(k * 0.7548776662466927)[0], np.modf(k * 0.5698402909980532)[0]
     a = np.sqrt(a)
     return Samples(interpolate(s.V, s.F, face, np.stack([1 - a, a * (1 - b), a * b], 1)), face)
+
+
+def smooth_regions(s: Soup) -> Ints:
+    """Number the parts of the surface between edges sharper than 25 degrees, (m,) int64, a number a face."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    twin = edges(s.F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    a, b = h // 3, twin[h] // 3
+    smooth = np.einsum("ij,ij->i", s.N[a], s.N[b]) > _SMOOTH
+    links = (a[smooth], b[smooth])
+    graph = coo_matrix((np.ones(len(links[0]), np.int8), links), shape=(len(s.F), len(s.F)))
+    return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.solid.wall_edges import bends
+from meshjig.solid.wall_edges import bent
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["simplified"]
@@ -53,9 +53,9 @@ def simplified(X: Floats, Y: Floats, start: Ints, tolerance: float, bend: float)
         worst = np.maximum.reduceat(off, at)
         is_worst = np.flatnonzero(off == np.repeat(worst, count))
         middle = inner[is_worst[np.searchsorted(is_worst, at)]]
-        bent = (worst <= tolerance) & (bends(X, Y, low, high) > bend)
-        middle = np.where(bent, (low + high) // 2, middle)
-        split = bent | (worst > tolerance)
+        turns = (worst <= tolerance) & bent(X, Y, low, high, bend)
+        middle = np.where(turns, (low + high) // 2, middle)
+        split = turns | (worst > tolerance)
         low, middle, high = low[split], middle[split], high[split]
         keep[middle] = True
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])

@@ -8,9 +8,10 @@ from meshjig.measure import unit
 from meshjig.topology import edges
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["bends", "split_bent_walls"]
+__all__ = ["bends", "bent", "split_bent_walls"]
 
 _ROUNDS = 24
+_TURN = np.cos(np.radians(25))
 
 
 def split_bent_walls(
@@ -36,15 +37,30 @@ def split_bent_walls(
         e = edges(F)
         between = np.zeros(len(e.E), bool)
         between[e.edge_of_halfedge[np.repeat(piece_of_face, 3) != piece_of_face[e.twin // 3]]] = True
-        bent = between & (bends(V, V + D, *e.E.T) > tolerance)
-        done = ~bent[e.edge_of_halfedge].reshape(-1, 3).any(1)  # faces that won't change any more
+        i, j = e.E.T
+        wanted = between & bent(V, V + D, i, j, tolerance)
+        done = ~wanted[e.edge_of_halfedge].reshape(-1, 3).any(1)  # faces that won't change any more
         rest, rest_piece = np.concatenate([rest, F[done]]), np.concatenate([rest_piece, piece_of_face[done]])
-        alone = _one_a_face(e.edge_of_halfedge.reshape(-1, 3), bent)
-        F, piece_of_face, of_halfedge = F[~done], piece_of_face[~done], e.edge_of_halfedge[np.repeat(~done, 3)]
+        alone = _one_a_face(e.edge_of_halfedge.reshape(-1, 3), wanted)
+        F, piece_of_face, of_halfedge = (
+            F[~done],
+            piece_of_face[~done],
+            e.edge_of_halfedge[np.repeat(~done, 3)],
+        )
         if not len(F):
             break
         V, F, piece_of_face, D = _halved(V, F, piece_of_face, D, of_halfedge, e.E, alone)
     return V, np.concatenate([rest, F]), np.concatenate([rest_piece, piece_of_face]), D
+
+
+def bent(X: Floats, Y: Floats, i: Ints, j: Ints, tolerance: float) -> Bools:
+    """Mark quads that two triangles don't stand for, (k,).
+
+    Their diagonal is farther than the tolerance from the ruled wall, or their ends point in directions that
+    differ too much for an edge between them to run beside the sheet.
+    """
+    first, last = unit(Y[i] - X[i]), unit(Y[j] - X[j])
+    return (bends(X, Y, i, j) > tolerance) | (np.einsum("ij,ij->i", first, last) < _TURN)
 
 
 def bends(X: Floats, Y: Floats, i: Ints, j: Ints) -> Floats:

@@ -81,3 +81,20 @@ def test_an_open_piece_leaves_its_least_distance_unknown():
 
 def test_a_lone_piece_has_no_gaps():
     assert gaps([LEFT]).facts(0.2) == {"min": None, "p1": None, "median": None, "within_10pct": None}
+
+
+def test_sheets_that_face_each_other_in_a_fold_are_no_walls():
+    lower, upper = box([0, 0, 0], [20, 10, 2], 10), box([16, 0, 2.5], [40, 10, 4.5], 10)
+    measured = gaps([lower, upper], neighbours=np.array([[0, 1]]), clearance=0.2)
+    assert measured.min == pytest.approx(0.5)
+    assert len(measured.samples) == 0
+
+
+def test_samples_know_their_pieces():
+    row = [box([10.2 * k, 0, 0], [10.2 * k + 10, 10, 2]) for k in range(3)]
+    measured = gaps(row, neighbours=np.array([[0, 1], [1, 2]]), clearance=0.2)
+    pairs, count = np.unique(measured.sample_pair, axis=0, return_counts=True)
+    assert pairs.tolist() == [[0, 1], [1, 2]]
+    assert (count > 100).all()
+    assert measured.wide(0.25) == []
+    assert measured.wide(0.15) == [(0, 1), (1, 2)]
