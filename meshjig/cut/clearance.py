@@ -61,8 +61,8 @@ def gap_outlines(
     seam_curves, row = along_seams(seams)
     shapes = np.concatenate(
         [
-            _buffered(curves, curve_width),
-            _buffered(seam_curves, seam_width[row]),
+            _buffered(curves, curve_width, clearance),
+            _buffered(seam_curves, seam_width[row], clearance),
             _carried_over(cut, curves, seams, seam_width, clearance),
         ]
     )
@@ -84,13 +84,13 @@ def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
     return 1 / np.sqrt(np.clip((1 + cos) / 2, WIDEST**-2, 1))
 
 
-def _buffered(curves: PlaneCurves, width: Floats) -> np.ndarray:
+def _buffered(curves: PlaneCurves, width: Floats, clearance: float) -> np.ndarray:
     """Buffer runs of stretches that follow each other and have nearly the same width."""
     import shapely
 
     length = np.linalg.norm(curves.end - curves.start, axis=1)
     run = np.cumsum(~curves.follows) - 1
-    step = np.rint(np.log(_smooth(width, length, run)) / WIDTH_STEP)
+    step = np.rint(np.log(_smooth(width, length, run) * 2 / clearance) / WIDTH_STEP)
     new = ~curves.follows
     new[1:] |= step[1:] != step[:-1]
     first = np.flatnonzero(new)
@@ -102,7 +102,7 @@ def _buffered(curves: PlaneCurves, width: Floats) -> np.ndarray:
     line = np.concatenate([group, np.arange(len(first))])
     order = np.argsort(line, kind="stable")
     lines = shapely.linestrings(points[order], indices=line[order])
-    half = np.exp(step[first] * WIDTH_STEP)
+    half = clearance / 2 * np.exp(step[first] * WIDTH_STEP)
     return shapely.buffer(shapely.simplify(lines, STRAIGHT), half, quad_segs=ARC)
 
 
