@@ -62,7 +62,7 @@ def _run(mesh: Path, target: Path, options: list[str], slicer: bool) -> dict:
     shutil.rmtree(target, ignore_errors=True)
     command = [sys.executable, "-m", "meshjig", "make", str(mesh), "-o", str(target), "-q", *options]
     start = time.perf_counter()
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
     row = {"exit": done.returncode, "wall_s": time.perf_counter() - start, "said": done.stderr.strip()[-600:]}
     if not (target / "report.json").is_file():
         return row
@@ -81,7 +81,9 @@ def _slicer_agrees(path: Path) -> bool:
     """Read what the slicer prints: its exit code says nothing."""
     if path.suffix not in {".stl", ".3mf"}:
         return True
-    said = subprocess.run(["prusa-slicer", "--info", str(path)], capture_output=True, text=True, check=False)
+    said = subprocess.run(
+        ["prusa-slicer", "--info", str(path)], capture_output=True, encoding="utf-8", check=False
+    )
     verdicts = [
         line.split("=")[1].strip() for line in said.stdout.splitlines() if line.startswith("manifold")
     ]
