@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import json
-import logging
-import sys
 import tomllib
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from meshjig.errors import MeshjigError, OptionError
+from meshjig.errors import OptionError
 from meshjig.options import Options
+from meshjig.terminal import (
+    BROKEN_PROMISE,
+    INTERRUPTED,
+    USAGE,
+    as_lines,
+    listen_for_interrupts,
+    progress_bar,
+    say,
+    sentences,
+    tell_broken,
+    tell_notes,
+)
 
 __all__ = ["app", "main"]
-
-FAILED, USAGE, BROKEN_PROMISE = 1, 2, 3
 
 app = typer.Typer(
     name="meshjig",
@@ -89,35 +95,36 @@ def make(
 ) -> None:
     """Make a puzzle: pieces, 3MF, preview and report."""
     flags = {name: value for name, value in locals().items() if name in Options.model_fields}
-    with _sentences(verbose, quiet):
+    with sentences(verbose, quiet):
         options = _options(config, flags)
         from meshjig.output.folder import check_target
         from meshjig.pipeline import make_puzzle
 
         target = output or Path(f"{Path(mesh).stem}-jigsaw")
         check_target(target)
-        with _progress(quiet or verbose) as progress:
+        with progress_bar(quiet or verbose) as progress:
             puzzle = make_puzzle(mesh, progress=progress, options=options)
-            if progress:
-                progress("write", "start")
+            progress("write", "start")
             puzzle.save(target)
         if as_json:
             print((target / "report.json").read_text(encoding="utf-8"))
         if not quiet:
-            _say(f"{len(puzzle.pieces)} pieces in {target}")
+            n = len(puzzle.pieces)
+            say(f"{n} piece{'s' if n > 1 else ''} in {target}")
+            tell_notes(puzzle.report)
     if not puzzle.report["ok"]:
-        _tell_broken(puzzle.report["failures"])
+        tell_broken(puzzle.report["failures"])
         raise typer.Exit(BROKEN_PROMISE)
 
 
 @app.command()
 def info(mesh: MeshPath, as_json: AsJson = False, verbose: Verbose = False, quiet: Quiet = False) -> None:
     """Say what a mesh is, and what would be done to it."""
-    with _sentences(verbose, quiet):
+    with sentences(verbose, quiet):
         from meshjig.scan import describe
 
         facts = describe(mesh)
-        print(json.dumps(facts, indent=2) if as_json else _as_lines(facts))
+        print(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 @app.command()
@@ -134,7 +141,7 @@ def check(
 
     Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
     """
-    with _sentences(verbose, quiet):
+    with sentences(verbose, quiet):
         from meshjig.check import judge
         from meshjig.output.asked import read_asked
         from meshjig.output.read import read_pieces
@@ -151,16 +158,21 @@ def check(
         }
         result |= {"exempt": verdict.exempt, "ok": verdict.ok}
         print(
-            json.dumps(result, indent=2) if as_json else _as_lines(verdict.checks | {"names": verdict.named})
+            json.dumps(result, indent=2) if as_json else as_lines(verdict.checks | {"names": verdict.named})
         )
     if not verdict.ok:
-        _tell_broken(verdict.failures)
+        tell_broken(verdict.failures)
         raise typer.Exit(BROKEN_PROMISE)
 
 
 def main() -> None:
     """Run the command line."""
-    app()
+    try:
+        listen_for_interrupts()
+        app()
+    except KeyboardInterrupt:
+        say("meshjig: interrupted; nothing was written")
+        raise SystemExit(INTERRUPTED) from None
 
 
 def _options(config: Path | None, flags: dict[str, Any]) -> Options:
@@ -173,7 +185,7 @@ def _options(config: Path | None, flags: dict[str, Any]) -> Options:
         given.update({name: value for name, value in flags.items() if value is not None})
         return Options.of(**given)
     except OptionError as error:
-        _say(f"meshjig: {error}")
+        say(f"meshjig: {error}")
         raise typer.Exit(USAGE) from None
 
 
@@ -184,69 +196,3 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise OptionError(f"config: {path} is no valid TOML ({error})") from None
-
-
-@contextmanager
-def _sentences(verbose: bool, quiet: bool) -> Iterator[None]:
-    """Turn whatever goes wrong into one sentence on standard error, and an exit code."""
-    level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
-    logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(message)s")
-    logging.getLogger("meshjig").setLevel(level)
-    try:
-        yield
-    except MeshjigError as error:
-        _say(f"meshjig: {error}")
-        raise typer.Exit(FAILED) from None
-    except KeyboardInterrupt:
-        _say("meshjig: interrupted; nothing was written")
-        raise typer.Exit(130) from None
-    except MemoryError:
-        _say("meshjig: not enough memory: use fewer faces (--faces)")
-        raise typer.Exit(FAILED) from None
-    except typer.Exit:
-        raise
-    except Exception as error:
-        if verbose:
-            logging.getLogger("meshjig").exception("unexpected failure")
-        reason = f"{type(error).__name__}: {error}".splitlines()[0]
-        _say(
-            f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where"
-        )
-        raise typer.Exit(FAILED) from None
-
-
-@contextmanager
-def _progress(off: bool) -> Iterator[Callable[[str, str], None] | None]:
-    """Show the stage that runs, on standard error, when somebody watches."""
-    if off or not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("scan")
-        yield lambda stage, event: bar.update(task, description=stage) if event == "start" else None
-
-
-def _tell_broken(failures: dict[str, list[str]]) -> None:
-    for promise, names in failures.items():
-        shown = ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
-        _say(f"meshjig: broken promise: {promise}" + (f" ({shown})" if names else ""))
-
-
-def _as_lines(facts: dict[str, Any], indent: str = "") -> str:
-    lines = []
-    for key, value in facts.items():
-        if isinstance(value, dict):
-            lines.append(f"{indent}{key}:")
-            lines.append(_as_lines(value, indent + "  "))
-        else:
-            shown = f"{value:.4g}" if isinstance(value, float) else "not known" if value is None else value
-            lines.append(f"{indent}{key}: {shown}")
-    return "\n".join(lines)
-
-
-def _say(sentence: str) -> None:
-    print(sentence, file=sys.stderr)

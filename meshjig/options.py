@@ -20,6 +20,9 @@ PROCESSES: dict[str, Preset] = {
 }
 
 
+_SAYINGS = {"extra_forbidden": "there is no such option", "too_short": "at least one is needed"}
+
+
 class Options(BaseModel):
     """How a puzzle is made.
 
@@ -42,7 +45,7 @@ class Options(BaseModel):
     min_neck: FiniteFloat = Field(2.0, ge=0, description="least width of a knob's neck, mm")
     min_wall: FiniteFloat = Field(1.2, ge=0, description="least thickness that prints well, mm")
     clearance_method: Literal["stretch", "domain", "solid"] = Field(
-        "solid", description="how the gap is made: cut from the solids, or laid out in the plane"
+        "solid", description="how the gap is made: solid, stretch or domain"
     )
     join: Literal["miter", "round"] = Field("miter", description="inner sheet along creases")
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
@@ -98,7 +101,7 @@ class Options(BaseModel):
             return cls(**given)
         except ValidationError as error:
             first = error.errors()[0]
-            says = first["msg"].removeprefix("Value error, ")
+            says = _SAYINGS.get(first["type"]) or first["msg"].removeprefix("Value error, ")
             if not first["loc"]:
                 raise OptionError(says) from None
             name = str(first["loc"][0]).replace("_", "-")

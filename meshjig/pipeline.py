@@ -26,6 +26,7 @@ from meshjig.sizing import choose_tiles
 from meshjig.solid import Shell, kerf, shell
 from meshjig.stitch import region_graph, stitch
 from meshjig.tiling import FAMILIES, tile_charts
+from meshjig.topology import border_halfedges, components
 from meshjig.types import Atlas, Floats, Ints, Mesh
 
 __all__ = ["make_puzzle"]
@@ -34,6 +35,7 @@ log = logging.getLogger("meshjig")
 
 WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
 TRIES = 3
+FEWEST = 2  # pieces that a puzzle can have
 WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
 
 
@@ -77,6 +79,7 @@ def make_puzzle(
         with stages("charts"):
             atlas = build_atlas(surface, method=options.charts, seed=options.seed)
         layout = _cut_into_pieces(atlas, options, stages)
+        _refuse_hollow_pieces(layout)
         with stages("clearance"):
             parts = _leave_gaps(atlas, layout, options)
         with stages("solid"):
@@ -132,17 +135,15 @@ def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:
 
 def _refuse_too_small_tiles(tile: float, area: float, options: Options) -> None:
     neck = FAMILIES[options.tile](8).neck_width
-    smallest = (options.clearance + 0.1) / neck
+    smallest = (2 * options.clearance + 0.1) / neck  # half of the neck is left
     if tile >= smallest:
         return
-    if options.clearance > neck * np.sqrt(area / 100):
-        raise OptionError(
-            f"clearance: {options.clearance:g} mm is wider than a knob's neck ({neck * tile:.2g} mm)",
-            hint=f"use less than {max(neck * tile - 0.1, 0):.2g} mm, or larger pieces",
-        )
+    most, widest = int(area / smallest**2), max(neck * tile / 2 - 0.05, 0.0)
+    larger = f"pieces of at least {smallest:.2g} mm" if options.piece_size else f"at most {most} pieces"
     raise OptionError(
-        f"pieces: tiles of {tile:.2g} mm are too small for a clearance of {options.clearance:g} mm",
-        hint=f"use at most {max(int(area / smallest**2), 1)} pieces, or a larger size",
+        f"tiles of {tile:.2g} mm have a knob's neck of {neck * tile:.2g} mm, "
+        f"too narrow for a clearance of {options.clearance:g} mm",
+        hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
     )
 
 
@@ -158,7 +159,7 @@ def _cut_into_pieces(atlas: Atlas, options: Options, stages: Stages) -> Layout:
                 choice.size,
                 family=options.tile,
                 shift=choice.shift,
-                min_neck=options.min_neck,
+                min_neck=least_border,
                 seed=options.seed,
             )
         with stages("cut"):
@@ -172,6 +173,22 @@ def _cut_into_pieces(atlas: Atlas, options: Options, stages: Stages) -> Layout:
             break
         wanted = max(1, round(wanted * options.pieces / n))
     return min(tried, key=lambda layout: abs(layout.stitching.n_pieces - options.pieces))
+
+
+def _refuse_hollow_pieces(layout: Layout) -> None:
+    """Refuse a piece that is a whole closed surface: nobody could print what is inside."""
+    F, piece = layout.cut.F, layout.piece_of_face
+    n, component = components(F)
+    first = np.full(n, -1)
+    first[component] = piece
+    hollow = np.ones(n, bool)
+    hollow[component[piece != first[component]]] = False
+    hollow[component[border_halfedges(F) // 3]] = False
+    if hollow.any():
+        raise OptionError(
+            "pieces: a closed part of the model would be a single hollow piece",
+            hint="ask for more pieces",
+        )
 
 
 def _leave_gaps(atlas: Atlas, layout: Layout, options: Options) -> Parts:

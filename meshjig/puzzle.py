@@ -85,7 +85,9 @@ class Puzzle:
 
     @classmethod
     def load(cls, directory: str | Path) -> Puzzle:
-        """Read a puzzle back from its folder.
+        """Read the pieces and the report of a puzzle back from its folder.
+
+        Colours and curves stay in the files.
 
         Raises
         ------
@@ -99,7 +101,9 @@ class Puzzle:
             report = json.loads(path.read_text(encoding="utf-8"))
         except ValueError:
             raise InputError(f"{path} is no valid JSON", hint="make the puzzle again") from None
-        listed = [piece["id"] for piece in report.get("pieces", [])]
+        if not isinstance(report, dict) or "meshjig" not in report:
+            raise InputError(f"{path} is no report of meshjig", hint="give a folder that meshjig made")
+        listed = [piece["id"] for piece in report["pieces"]]
         pieces = [
             Piece(name, V, F, GREY, listed[i] if i < len(listed) else i + 1)
             for i, (name, V, F) in enumerate(read_pieces(directory))

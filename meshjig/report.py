@@ -58,6 +58,7 @@ def assemble_report(
     gap = on_surface and outer_gap(
         on_surface.cut.V, on_surface.cut.F, on_surface.piece_of_face, options.clearance
     )
+    least_neck = options.min_neck + options.clearance  # the gap takes half of it from either side
     checks = {
         **verdict.checks,
         "gap_outer_mm": gap,
@@ -66,7 +67,7 @@ def assemble_report(
         "interlocked_borders": locks.interlocked_borders,
         "interlocked_length": locks.interlocked_length,
         "head_neck": _head_neck(locks),
-        "thin_necks": int((locks.neck < options.min_neck).sum()),
+        "thin_necks": int((locks.neck < least_neck).sum()),
         "area_cv": float(area.std() / area.mean()),
     }
     failures = verdict.failures | _broken_as_a_whole(checks)
@@ -81,7 +82,7 @@ def assemble_report(
         "pieces": _pieces(n, area, solids, locks),
         "checks": checks,
         "names": verdict.named
-        | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(options.min_neck)]},
+        | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(least_neck)]},
         "failures": failures,
         "exempt": verdict.exempt,
         "ok": verdict.ok and len(failures) == len(verdict.failures),

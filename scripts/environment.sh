@@ -37,9 +37,9 @@ install_system_packages() {
 
 make_environment() {
     local wanted stamp python
-    stamp=$top/.venv/.installed
+    stamp=$top/.venv/.installed$extra
     wanted=$(cat "$top/pyproject.toml" "$top/scripts/constraints.txt" | cksum)
-    if [ "$(cat "$stamp" 2>/dev/null)" != "$wanted" ] || { [ -n "$extra" ] && [ ! -e "$top/.venv/.$extra" ]; }; then
+    if [ "$(cat "$stamp" 2>/dev/null)" != "$wanted" ]; then
         python=$(find_python) || return 1
         say "setting up $top/.venv (once)"
         "$python" -m venv "$top/.venv" || {
@@ -52,7 +52,6 @@ make_environment() {
             return 1
         }
         printf '%s\n' "$wanted" >"$stamp"
-        [ -z "$extra" ] || touch "$top/.venv/.$extra"
     fi
     install_system_packages
 }

@@ -255,3 +255,23 @@ def assert_one_sentence(said, words):
     assert lines[0].startswith("meshjig: ")
     assert re.search(words, lines[0]), lines[0]
     assert said.stdout == ""
+
+
+@pytest.mark.parametrize("wait", [0.3, 2.0])
+def test_an_interrupt_ends_with_a_sentence_and_leaves_nothing(ball, tmp_path, wait):
+    import signal
+    import time
+
+    command = [sys.executable, "-m", "meshjig", "make", str(ball), "-o", str(tmp_path / "out")]
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, encoding="utf-8")
+    time.sleep(wait)
+    running.send_signal(signal.SIGINT)
+    _, said = running.communicate(timeout=60)
+    assert running.returncode == 130, said
+    assert "interrupted" in said
+    assert "Traceback" not in said
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_closed_surface_in_one_piece_is_refused(ball, tmp_path):
+    assert_one_sentence(run("make", ball, "-o", tmp_path / "out", "--pieces", 1), "hollow")

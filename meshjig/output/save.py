@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from meshjig.errors import OptionError
 from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece
 from meshjig.types import Floats
@@ -46,7 +47,12 @@ def save_puzzle(
     ------
     OutputError
         The folder can't be written, or holds something else.
+    OptionError
+        A format is unknown.
     """
+    unknown = sorted({formats} if isinstance(formats, str) else set(formats) - set(FORMATS))
+    if unknown:
+        raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
     seconds = dict(report["timings_s"])
     with replace_folder(directory) as folder:
         with _lap(seconds, "write"):

@@ -12,7 +12,7 @@ from meshjig.solid.offsets import Offsets, Strip, mitered
 from meshjig.solid.slab import slabs
 from meshjig.types import Floats, Ints
 
-__all__ = ["cutters", "round_cutters"]
+__all__ = ["ball", "cutters", "round_cutters"]
 
 _RING = np.pi / 4 * np.arange(8) + np.pi / 8  # corners of an octagon with a side towards 0
 
@@ -64,3 +64,11 @@ def _hull(corners: Floats, half: float) -> Body:
         ring = np.cos(_RING)[:, None] * side + np.sin(_RING)[:, None] * np.cross(axis, side)
         points += [top + half / np.cos(np.pi / 8) * ring, bottom + half / np.cos(np.pi / 8) * ring]
     return manifold3d.Manifold.hull_points(np.concatenate(points))
+
+
+def ball() -> Floats:
+    """Give the corners of an icosahedron around the unit ball, (12, 3)."""
+    g = (1 + np.sqrt(5)) / 2
+    points = np.array([[0, a, b * g] for a in (-1, 1) for b in (-1, 1)], float)
+    points = np.concatenate([points, np.roll(points, 1, 1), np.roll(points, 2, 1)])
+    return points * np.sqrt(3) / g**2

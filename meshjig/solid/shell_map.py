@@ -158,12 +158,14 @@ def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
     Raises
     ------
     SolidError
-        The thickness is over a third of a closed model's smallest extent, or twice what more than half of
-        the surface has room for; the sentence names the largest thickness that works.
+        The thickness is over a third of a closed model's smallest extent or of an open model's middle one,
+        or twice what more than half of the surface has room for; the sentence names the largest thickness
+        that works.
     """
     largest = 2 * _quantile(room[F].mean(1), face_areas(V, F), 0.5)
-    third = float(np.ptp(V[F.ravel()], axis=0).min()) / 3
-    if thickness > third and mesh_volume(V, F) > 0 and not len(border_halfedges(F)):
+    closed = mesh_volume(V, F) > 0 and not len(border_halfedges(F))
+    third = float(np.sort(np.ptp(V[F.ravel()], axis=0))[0 if closed else 1]) / 3
+    if thickness > third:
         largest = min(largest, third)
     if thickness > largest:
         raise _too_thick(thickness, largest)

@@ -78,7 +78,7 @@ def _beyond(X: Floats, D: Floats, F: Ints, chains: Chains, at: Ints, clearance: 
         np.minimum.at(upright, v, -np.einsum("ij,ij->i", N, unit(D[v])))
     upright = np.clip(upright, 0.05, 1.0)
     slope = np.sqrt(1 - upright**2) / upright
-    wanted = np.clip(_MARGIN + slope * clearance / 2, max(_LEAST_BEYOND, clearance), _MOST_BEYOND)
+    wanted = np.clip(_MARGIN + slope * clearance / 2, max(_LEAST_BEYOND, 1.5 * clearance), _MOST_BEYOND)
     length = wanted[chains.vertex]
     between = np.maximum.reduceat(length, at)
     length[at] = np.maximum(between, np.append(between[0], between[:-1]))

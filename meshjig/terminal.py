@@ -1,0 +1,143 @@
+"""What a person at a terminal sees: sentences, progress, and a clean end."""
+
+from __future__ import annotations
+
+import logging
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+import typer
+
+from meshjig.errors import MeshjigError
+
+__all__ = [
+    "BROKEN_PROMISE",
+    "FAILED",
+    "INTERRUPTED",
+    "USAGE",
+    "as_lines",
+    "listen_for_interrupts",
+    "progress_bar",
+    "say",
+    "sentences",
+    "tell_broken",
+    "tell_notes",
+]
+
+FAILED, USAGE, BROKEN_PROMISE, INTERRUPTED = 1, 2, 3, 130
+
+_interrupted = False
+
+
+def listen_for_interrupts() -> None:
+    """Remember Ctrl-C: a native call or an import that it falls into may swallow or disguise it."""
+    signal.signal(signal.SIGINT, _on_interrupt)
+
+
+def say(sentence: str) -> None:
+    """Print to standard error."""
+    print(sentence, file=sys.stderr)
+
+
+@contextmanager
+def sentences(verbose: bool, quiet: bool) -> Iterator[None]:
+    """Turn whatever goes wrong into one sentence on standard error, and an exit code."""
+    level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
+    logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(message)s")
+    logging.getLogger("meshjig").setLevel(level)
+    try:
+        yield
+    except MeshjigError as error:
+        say(f"meshjig: {error}")
+        raise typer.Exit(FAILED) from None
+    except KeyboardInterrupt:
+        _end_interrupted()
+    except MemoryError:
+        say("meshjig: not enough memory: use fewer faces (--faces)")
+        raise typer.Exit(FAILED) from None
+    except typer.Exit:
+        raise
+    except Exception as error:
+        if _interrupted:
+            _end_interrupted()
+        if verbose:
+            logging.getLogger("meshjig").exception("unexpected failure")
+        reason = f"{type(error).__name__}: {error}".splitlines()[0]
+        say(f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where")
+        raise typer.Exit(FAILED) from None
+
+
+@contextmanager
+def progress_bar(silent: bool) -> Iterator[Callable[[str, str], None]]:
+    """Give a callback that shows the stage that runs, on standard error, when somebody watches.
+
+    It also ends the run at the next stage after an interrupt that was swallowed.
+    """
+    if silent or not sys.stderr.isatty():
+        yield lambda stage, event: _end_if_interrupted()
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    def show(stage: str, event: str) -> None:
+        _end_if_interrupted()
+        if event == "start":
+            bar.update(task, description=stage)
+
+    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("scan")
+        yield show
+
+
+def tell_broken(failures: dict[str, list[str]]) -> None:
+    """Name every broken promise and the pieces that break it."""
+    for promise, names in failures.items():
+        shown = ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
+        say(f"meshjig: broken promise: {promise}" + (f" ({shown})" if names else ""))
+
+
+def tell_notes(report: dict[str, Any]) -> None:
+    """Say what is no broken promise, but what a maker should know."""
+    made, options = len(report["pieces"]), report["options"]
+    if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
+        say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit the charts of this model")
+    if report["exempt"]:
+        n = len({name for names in report["exempt"].values() for name in names})
+        say(f"meshjig: note: the mesh crosses itself, and so do {n} pieces: --resurface rebuilds its surface")
+    necks = report["checks"]["thin_necks"]
+    if necks:
+        say(f"meshjig: note: {necks} knobs have necks thinner than {options['min_neck']:g} mm")
+
+
+def as_lines(facts: dict[str, Any], indent: str = "") -> str:
+    """Write facts for people, a line each."""
+    lines = []
+    for key, value in facts.items():
+        if isinstance(value, dict):
+            lines.append(f"{indent}{key}:")
+            lines.append(as_lines(value, indent + "  "))
+        else:
+            shown = f"{value:.4g}" if isinstance(value, float) else "not known" if value is None else value
+            lines.append(f"{indent}{key}: {shown}")
+    return "\n".join(lines)
+
+
+def _on_interrupt(number: int, frame: FrameType | None) -> None:
+    global _interrupted
+    _interrupted = True
+    raise KeyboardInterrupt
+
+
+def _end_if_interrupted() -> None:
+    if _interrupted:
+        raise KeyboardInterrupt
+
+
+def _end_interrupted() -> None:
+    say("meshjig: interrupted; nothing was written")
+    raise typer.Exit(INTERRUPTED) from None
