@@ -17,7 +17,7 @@ def run(*words, cwd=None):
     return subprocess.run(
         [sys.executable, "-m", "meshjig", *map(str, words)],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         cwd=cwd,
         check=False,
     )

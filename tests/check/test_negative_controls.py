@@ -47,7 +47,7 @@ def folder_of(path, pieces):
 
 def judged(*words):
     command = [sys.executable, "-m", "meshjig", "check", *map(str, words), "--json"]
-    said = subprocess.run(command, capture_output=True, text=True, check=False)
+    said = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
     return said.returncode, json.loads(said.stdout)["failures"], said.stderr
 
 
