@@ -79,7 +79,7 @@ def make_puzzle(
         with stages("charts"):
             atlas = build_atlas(surface, method=options.charts, seed=options.seed)
         layout = _cut_into_pieces(atlas, options, stages)
-        _refuse_hollow_pieces(layout)
+        _refuse_a_hollow_piece(layout)
         with stages("clearance"):
             parts = _leave_gaps(atlas, layout, options)
         with stages("solid"):
@@ -175,20 +175,14 @@ def _cut_into_pieces(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     return min(tried, key=lambda layout: abs(layout.stitching.n_pieces - options.pieces))
 
 
-def _refuse_hollow_pieces(layout: Layout) -> None:
-    """Refuse a piece that is a whole closed surface: nobody could print what is inside."""
+def _refuse_a_hollow_piece(layout: Layout) -> None:
+    """Refuse to make the model's main part, where it is closed, a single piece: it would be hollow."""
     F, piece = layout.cut.F, layout.piece_of_face
     n, component = components(F)
-    first = np.full(n, -1)
-    first[component] = piece
-    hollow = np.ones(n, bool)
-    hollow[component[piece != first[component]]] = False
-    hollow[component[border_halfedges(F) // 3]] = False
-    if hollow.any():
-        raise OptionError(
-            "pieces: a closed part of the model would be a single hollow piece",
-            hint="ask for more pieces",
-        )
+    main = component == np.bincount(component, face_areas(layout.cut.V, F), n).argmax()
+    open_parts = component[border_halfedges(F) // 3]
+    if np.ptp(piece[main]) == 0 and not np.isin(component[main][:1], open_parts).any():
+        raise OptionError("pieces: the model would be a single hollow piece", hint="ask for more pieces")
 
 
 def _leave_gaps(atlas: Atlas, layout: Layout, options: Options) -> Parts:
