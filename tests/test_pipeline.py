@@ -1,5 +1,7 @@
 """The library as a programmer meets it."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
@@ -106,3 +108,14 @@ def test_an_atlas_maps_points_and_curves():
     length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines)
     assert length == pytest.approx(np.linalg.norm(far - middle), rel=0.3)
     assert len(atlas.trimming_curves()) > 1
+
+
+@pytest.mark.parametrize(
+    ("method", "measure", "least"), [("solid", "gap_mm", 0.995), ("stretch", "gap_outer_mm", 0.99)]
+)
+def test_the_vase_keeps_its_gap(method, measure, least):
+    vase = Path(__file__).parent.parent / "data" / "vase.ply"
+    puzzle = meshjig.make_puzzle(vase, size=150, pieces=60, clearance_method=method)
+    assert puzzle.report["checks"][measure]["within_10pct"] > least
+    if method == "solid":
+        assert puzzle.report["failures"] == {}
