@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check import Verdict
+from meshjig.check import Verdict, area_cv, area_error, outer_gap
 from meshjig.check.interlock import Interlock
-from meshjig.check.outer_gap import outer_gap
 from meshjig.layout import Layout, Parts
 from meshjig.measure import face_areas, mesh_volume, sums
 from meshjig.options import Options
@@ -54,7 +53,6 @@ def assemble_report(
     n = layout.stitching.n_pieces
     areas = face_areas(cut.V, cut.F)
     area = sums(layout.piece_of_face, areas, n)
-    surface = face_areas(mesh.V, mesh.F).sum()
     gap = on_surface and outer_gap(
         on_surface.cut.V, on_surface.cut.F, on_surface.piece_of_face, options.clearance
     )
@@ -62,13 +60,13 @@ def assemble_report(
     checks = {
         **verdict.checks,
         "gap_outer_mm": gap,
-        "area_error": float(abs(areas.sum() - surface) / surface),
+        "area_error": area_error(areas, face_areas(mesh.V, mesh.F)),
         "discarded_volume_share": solid_facts["discarded_volume_share"],
         "interlocked_borders": locks.interlocked_borders,
         "interlocked_length": locks.interlocked_length,
         "head_neck": _head_neck(locks),
         "thin_necks": int((locks.neck < least_neck).sum()),
-        "area_cv": float(area.std() / area.mean()),
+        "area_cv": area_cv(area),
     }
     failures = verdict.failures | _broken_as_a_whole(checks)
     return {

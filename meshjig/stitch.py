@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.measure import face_areas, sums
-from meshjig.topology import edges
+from meshjig.topology import edge_keys, edges
 from meshjig.types import Bools, CutMesh, Floats, Ints, RegionGraph, Stitching
 
 __all__ = ["region_graph", "stitch"]
@@ -24,7 +24,7 @@ def region_graph(cut: CutMesh) -> RegionGraph:
     h, here, there = h[border], here[border], there[border]
     ends = e.E[e.edge_of_halfedge[h]]
     length = np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1)
-    along_cut = np.isin(_edge_keys(ends, len(cut.V)), _edge_keys(np.sort(cut.cuts, axis=1), len(cut.V)))
+    along_cut = np.isin(edge_keys(ends, len(cut.V)), edge_keys(cut.cuts, len(cut.V)))
     n = int(cut.region.max(initial=-1)) + 1
     area = sums(cut.region, face_areas(cut.V, cut.F), n)
     return sum_borders(area, here, there, length, ~along_cut)
@@ -59,7 +59,7 @@ def stitch(graph: RegionGraph, share: float, tile_area: float, least_border: flo
     Parameters
     ----------
     graph : RegionGraph
-    share : float, 0 to 1; 1 or more border than that joins only what meets along its whole seam
+    share : float, 0 to 1; at 1 only regions join that meet along the whole seam of one of them
     tile_area : float, area of a whole tile, mm2
     least_border : float, mm; over less of a seam than that a join would be too weak to be made
 
@@ -156,7 +156,3 @@ def _merge_tiny(groups: _Groups) -> tuple[int, int]:
         heapq.heappush(queue, (groups.area[whole], whole))
         n, merged = n - 1, merged + 1
     return merged, left
-
-
-def _edge_keys(ends: Ints, n: int) -> Ints:
-    return ends[:, 0] * np.int64(n) + ends[:, 1]

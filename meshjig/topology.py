@@ -7,7 +7,17 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["Edges", "border_halfedges", "compact", "components", "edges", "fans", "is_disc", "next_halfedge"]
+__all__ = [
+    "Edges",
+    "border_halfedges",
+    "compact",
+    "components",
+    "edge_keys",
+    "edges",
+    "fans",
+    "is_disc",
+    "next_halfedge",
+]
 
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
@@ -28,6 +38,11 @@ class Edges(NamedTuple):
 def next_halfedge(h: Ints) -> Ints:
     """Give the half-edge that follows in the same face."""
     return np.where(h % 3 == 2, h - 2, h + 1)
+
+
+def edge_keys(ends: Ints, n: int) -> Ints:
+    """Give one number for every edge (k, 2) between n vertices, whichever end comes first; (k,)."""
+    return ends.min(1) * np.int64(n) + ends.max(1)
 
 
 def edges(F: Ints) -> Edges:

@@ -5,6 +5,7 @@ from meshjig.check.closed import as_stl, is_closed, is_closed_as_stl, is_one_com
 from meshjig.check.crossings import crossing_depth, self_intersections
 from meshjig.check.gap import Gap, gaps
 from meshjig.check.judge import Verdict, judge
+from meshjig.check.outer_gap import outer_gap
 from meshjig.check.overlap import Overlaps, overlaps
 from meshjig.check.thickness import Thickness, measure_thickness
 from meshjig.check.touched import touched_pieces
@@ -24,6 +25,7 @@ __all__ = [
     "is_one_component",
     "judge",
     "measure_thickness",
+    "outer_gap",
     "overlaps",
     "self_intersections",
     "touched_pieces",

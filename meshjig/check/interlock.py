@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.measure import sums
-from meshjig.topology import edges
+from meshjig.topology import edge_keys, edges
 from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
 
 __all__ = ["Interlock", "interlock"]
@@ -51,7 +51,7 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
     knobs : Knobs
     piece_of_face : (m,) int64
     """
-    n = np.int64(len(cut.V))
+    n = len(cut.V)
     e = edges(cut.F)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     sides = np.sort(np.stack([piece_of_face[h // 3], piece_of_face[e.twin[h] // 3]], 1), axis=1)
@@ -61,7 +61,7 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
     keys, pair_of_edge = np.unique(sides[:, 0] * n_pieces + sides[:, 1], return_inverse=True)
     length = sums(pair_of_edge, np.linalg.norm(cut.V[ends[:, 0]] - cut.V[ends[:, 1]], axis=1), len(keys))
 
-    pair_of_cut = _lookup(ends[:, 0] * n + ends[:, 1], pair_of_edge, cut.cuts.min(1) * n + cut.cuts.max(1))
+    pair_of_cut = _lookup(edge_keys(ends, n), pair_of_edge, edge_keys(cut.cuts, n))
     whole, knob_pair = _whole_knobs(cut, knobs, pair_of_cut)
     head, neck = (_width(cut, points[whole]) for points in (knobs.head, knobs.neck))
     return Interlock(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.measure import barycentric
-from meshjig.topology import edges, next_halfedge
+from meshjig.topology import edge_keys, edges, next_halfedge
 from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Outlines
 
 __all__ = ["PlaneCurves", "SeamEdges", "along_seams", "cut_borders", "seam_borders"]
@@ -45,17 +45,16 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
     outlines : Outlines
     piece_of_face : (m,) int64, for the cut mesh's faces
     """
-    n = np.int64(len(cut.V))
+    n = len(cut.V)
     e = edges(cut.F)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     h = h[piece_of_face[h // 3] != piece_of_face[e.twin[h] // 3]]
     ends = e.E[e.edge_of_halfedge[h]]
-    key = ends[:, 0] * n + ends[:, 1]
+    key, of_cut = edge_keys(ends, n), edge_keys(cut.cuts, n)
     order = np.argsort(key)
-    low, high = cut.cuts.min(1), cut.cuts.max(1)
-    at = np.searchsorted(key[order], low * n + high)
-    at = order[np.minimum(at, len(order) - 1)] if len(order) else np.zeros(len(low), np.int64)
-    active = key[at] == low * n + high if len(order) else np.zeros(len(low), bool)
+    at = np.searchsorted(key[order], of_cut)
+    at = order[np.minimum(at, len(order) - 1)] if len(order) else np.zeros(len(of_cut), np.int64)
+    active = key[at] == of_cut if len(order) else np.zeros(len(of_cut), bool)
     chosen = np.flatnonzero(active)
     segment, param = cut.cut_segment[chosen], cut.cut_param[chosen]
     in_order = np.lexsort((param[:, 0], segment))

@@ -2,9 +2,7 @@
 
 from typing import Any
 
-import numpy as np
-
-from meshjig.topology import border_halfedges
+from meshjig.topology import border_halfedges, next_halfedge
 from meshjig.types import Atlas, Ints
 
 __all__ = ["chart_polygons"]
@@ -21,7 +19,7 @@ def chart_polygons(atlas: Atlas) -> list[Any]:
 
     F = atlas.F_uv
     h = border_halfedges(F)
-    start, end = F.ravel()[h], F.ravel()[np.where(h % 3 == 2, h - 2, h + 1)]
+    start, end = F.ravel()[h], F.ravel()[next_halfedge(h)]
     chart = atlas.chart_of_face[h // 3]
     polygons = []
     for c in range(atlas.n_charts):
