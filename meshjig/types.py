@@ -53,7 +53,8 @@ class Atlas:
     """A mesh cut into charts, each flattened to the plane in mm.
 
     All charts lie in one plane without touching each other. A vertex on a seam has one row in uv
-    for every chart (or side of a cut) that it belongs to.
+    for every chart (or side of a cut) that it belongs to. A periodic chart is a ring cut open: the
+    two sides of its closing line lie one period apart in the plane.
     """
 
     mesh: Mesh
@@ -61,6 +62,7 @@ class Atlas:
     F_uv: Ints  # (m, 3), corners into uv
     chart_of_face: Ints  # (m,)
     facts: dict[str, Any] = field(default_factory=dict)  # the report's "charts"
+    period: Floats | None = None  # (c,), mm along u after which a chart repeats; 0 where it does not
 
     @property
     def n_charts(self) -> int:
@@ -80,6 +82,8 @@ class Outlines:
     segments: Ints  # (k, 2), into points
     left: Ints  # (k,), label on the left of a segment
     right: Ints  # (k,), label on its right
+    same_point: Ints | None = None  # (n,), the first of the points that are one on a periodic chart
+    same_segment: Ints | None = None  # (k,), the first of the segments that are one
 
 
 @dataclass(frozen=True)
@@ -102,7 +106,7 @@ class CutMesh:
     F: Ints  # (m, 3)
     parent: Ints  # (m,), the face of the mesh that a face was cut from
     label: Ints  # (m,), the outlines' label
-    region: Ints  # (m,), connected parts of one label inside one chart
+    region: Ints  # (m,), connected parts of one label, over seams too
     vertex_face: Ints  # (n,), a face of the mesh that the vertex lies in
     vertex_bary: Floats  # (n, 3), where it lies in that face
     point_vertex: Ints  # (p,), the vertex made for a point of the outlines, or -1 where it missed the mesh

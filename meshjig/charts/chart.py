@@ -1,0 +1,33 @@
+"""One flattened chart, before it has a place in the plane of the atlas."""
+
+from dataclasses import dataclass
+
+from meshjig.topology import compact
+from meshjig.types import Floats, Ints
+
+__all__ = ["Chart", "plain"]
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Faces of a mesh and where their corners lie in a plane of their own.
+
+    Corners of one vertex lie apart where the chart is cut inside.
+    """
+
+    faces: Ints  # (k,), of the mesh
+    uv: Floats  # (n, 2), mm
+    corners: Ints  # (k, 3), into uv
+    period: float = 0.0  # mm along u after which the chart repeats; 0 where it does not
+
+
+def plain(F: Ints, faces: Ints, uv: Floats) -> Chart:
+    """Make a chart without cuts inside.
+
+    Parameters
+    ----------
+    F : (m, 3) int64, the mesh
+    faces : (k,) int64
+    uv : (n, 2) float64, of the vertices that compact(F[faces]) keeps
+    """
+    return Chart(faces, uv, compact(F[faces])[0])
