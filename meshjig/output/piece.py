@@ -1,7 +1,8 @@
 """What every writer is given: one named and coloured solid."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from meshjig.output.coat import Coat
 from meshjig.types import Floats, Ints
 
 __all__ = ["Piece"]
@@ -18,3 +19,4 @@ class Piece:
     V: Floats  # (n, 3), mm
     F: Ints  # (m, 3)
     colour: tuple[float, float, float]  # red, green, blue as a screen shows them, 0 to 1
+    coat: Coat | None = field(default=None, kw_only=True)  # where the scan had a picture

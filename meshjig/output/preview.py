@@ -37,7 +37,7 @@ def preview(pieces: Sequence[Piece], path: Path, up: str = "auto", size: int = 1
 
     V, F, piece_of_vertex, piece_of_face = _together(pieces)
     upward = guess_up(V, F) if up == "auto" else axis_of(up)
-    colour = np.array([piece.colour for piece in pieces])[piece_of_face]
+    colour = np.concatenate([_looks(piece) for piece in pieces])
     sheet = np.full((size, size, 3), 255, np.uint8)
     half = size // 2
     whole = scene_of(V, F, colour, piece_of_face)
@@ -52,6 +52,13 @@ def preview(pieces: Sequence[Piece], path: Path, up: str = "auto", size: int = 1
             picture = render(scene, same_scale, half, line=line, fog=fog)
             sheet[row * half : (row + 1) * half, column * half : (column + 1) * half] = picture
     Image.fromarray(sheet).save(path, optimize=False, compress_level=6)
+
+
+def _looks(piece: Piece) -> Floats:
+    """Give the colour of every face, (m, 3)."""
+    if piece.coat is None:
+        return np.tile(piece.colour, (len(piece.F), 1))
+    return piece.coat.rgb.mean(axis=1)
 
 
 def _together(pieces: Sequence[Piece]) -> tuple[Floats, Ints, Ints, Ints]:

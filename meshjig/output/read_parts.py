@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -101,6 +102,10 @@ def _part(V: Floats, F: Ints, name: str, path: Path) -> tuple[str, Floats, Ints]
 
 
 def _numbers(lines: list[str], start: str, kind: type) -> Floats:
-    """Give the three numbers on every line that starts so, (n, 3)."""
-    rows = " ".join(line[2:] for line in lines if line.startswith(start)).split()
-    return np.array(rows, dtype=object).astype(kind).reshape(-1, 3)
+    """Give the first three numbers on every line that starts so, (n, 3); what follows them is colour."""
+    chosen = [line[2:] for line in lines if line.startswith(start)]
+    rows = re.sub(r"/\d+", "", " ".join(chosen)).split()  # corner/picture: the corner matters here
+    table = np.array(rows, dtype=object).astype(kind).reshape(max(len(chosen), 1), -1)
+    if table.shape[1] not in (3, 6):
+        raise ValueError(f"{table.shape[1]} numbers on a line")
+    return table[:, :3]

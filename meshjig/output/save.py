@@ -13,7 +13,7 @@ from meshjig.types import Floats
 
 __all__ = ["FORMATS", "save_puzzle"]
 
-FORMATS = ("stl", "3mf", "obj", "glb")
+FORMATS = ("stl", "ply", "3mf", "obj", "glb")
 
 
 def save_puzzle(
@@ -34,7 +34,7 @@ def save_puzzle(
         An existing folder is replaced only when meshjig made it.
     pieces : sequence of Piece
     report : mapping, what report.json holds
-    formats : sequence of "stl", "3mf", "obj", "glb"
+    formats : sequence of "stl", "ply", "3mf", "obj", "glb"
     plane_curves : sequence of (k, 2) float64, mm; cut curves for SVG
     space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
     preview : bool, also draw preview.png
@@ -78,10 +78,16 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 
 def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str]) -> None:
+    if {"stl", "ply"} & set(formats):
+        (folder / "pieces").mkdir()
+    if "ply" in formats:
+        from meshjig.output.ply import write_ply
+
+        for piece in pieces:
+            write_ply(folder / "pieces" / f"{piece.name}.ply", piece)
     if "stl" in formats:
         from meshjig.output.stl import write_stl
 
-        (folder / "pieces").mkdir()
         for piece in pieces:
             write_stl(folder / "pieces" / f"{piece.name}.stl", piece.V, piece.F, piece.name)
     if "3mf" in formats:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OutputError
+from meshjig.output.coat import Coat
 from meshjig.output.piece import Piece
 
 __all__ = ["write_3mf"]
@@ -17,6 +18,7 @@ def write_3mf(path: Path, pieces: Iterable[Piece], title: str = "meshjig puzzle"
     """Write pieces as one 3MF, each an object of its own in its assembled position, mm.
 
     Colours are base materials of the core specification, one a piece, since every reader knows those.
+    The picture of a scan becomes colours of the materials extension at the corners of triangles.
 
     Parameters
     ----------
@@ -49,6 +51,8 @@ def write_3mf(path: Path, pieces: Iterable[Piece], title: str = "meshjig puzzle"
             red, green, blue = (round(255 * channel) for channel in piece.colour)
             material = materials.AddMaterial(piece.name, wrapper.RGBAToColor(red, green, blue, 255))
             mesh.SetObjectLevelProperty(materials.GetResourceID(), material)
+            if piece.coat is not None:
+                _set_colours(wrapper, model, mesh, piece.coat)
             model.AddBuildItem(mesh, identity)
         model.QueryWriter("3mf").WriteToFile(str(path))
     except lib3mf.ELib3MFException as error:
@@ -65,5 +69,24 @@ def _set_geometry(wrapper: Any, mesh: Any, piece: Piece) -> None:
     triangles = (lib3mf.Triangle * len(F)).from_buffer(F)
     status = wrapper.lib.lib3mf_meshobject_setgeometry(
         mesh._handle, ctypes.c_uint64(len(V)), vertices, ctypes.c_uint64(len(F)), triangles
+    )
+    wrapper.checkError(mesh, status)
+
+
+def _set_colours(wrapper: Any, model: Any, mesh: Any, coat: Coat) -> None:
+    """Give the corners of a mesh their colours, rounded to 32 steps a channel: a group holds each once."""
+    import lib3mf
+
+    steps = np.rint(31 * coat.rgb.reshape(-1, 3)).astype(np.int64)
+    distinct, number = np.unique(steps @ np.array([1024, 32, 1]), return_inverse=True)
+    group = model.AddColorGroup()
+    channels = np.rint(np.stack([distinct // 1024, distinct // 32 % 32, distinct % 32], 1) * 255 / 31)
+    ids = np.array([group.AddColor(wrapper.RGBAToColor(*map(int, rgb), 255)) for rgb in channels], np.uint32)
+    rows = np.empty((len(coat.rgb), 4), np.uint32)
+    rows[:, 0] = group.GetResourceID()
+    rows[:, 1:] = ids[number].reshape(-1, 3)
+    properties = (lib3mf.TriangleProperties * len(rows)).from_buffer(rows)
+    status = wrapper.lib.lib3mf_meshobject_setalltriangleproperties(
+        mesh._handle, ctypes.c_uint64(len(rows)), properties
     )
     wrapper.checkError(mesh, status)
