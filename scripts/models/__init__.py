@@ -1,0 +1,1 @@
+"""Shapes computed from a few numbers, nothing downloaded."""

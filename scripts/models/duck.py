@@ -1,0 +1,40 @@
+"""A duck of one surface: ovals along a bent line from the tip of the tail to the tip of the bill."""
+
+import numpy as np
+import trimesh
+
+from models.rings import rounded, swept
+
+__all__ = ["duck"]
+
+# place along (x) and height (y) of the middle, half width, half height, and how the oval leans (degrees)
+_OVALS = np.array(
+    [
+        (-78, 52, 0.0, 0.0, 25), (-72, 50, 9, 4, 25), (-60, 44, 24, 13, 18), (-44, 38, 37, 26, 10),
+        (-22, 34, 45, 33, 3), (2, 34, 45, 34, -5), (20, 40, 39, 32, -25), (31, 53, 29, 27, -55),
+        (35, 68, 21, 20, -80), (36, 84, 20, 20, -88), (43, 103, 24, 22.5, -45), (62, 111, 22, 21, -2),
+        (74, 109, 15, 13, 12), (82, 106, 12, 7, 10), (92, 104, 10, 3.8, 6), (99, 103, 5, 1.9, 4),
+        (102, 102.8, 0.0, 0.0, 4),
+    ],
+    float,
+)  # fmt: skip
+
+
+def duck(around: int = 160, along: int = 170) -> trimesh.Trimesh:
+    """Loft the ovals, 150 mm from tail to bill or so; closed, with a singular tip at either end; y is up."""
+    smooth = rounded(_OVALS, 5)
+    weight = np.sqrt(
+        (np.diff(smooth[:, :2], axis=0) ** 2).sum(1) + (np.diff(smooth[:, 2:4], axis=0) ** 2).sum(1)
+    )
+    arc = np.append(0.0, np.cumsum(weight))
+    at = np.linspace(0, arc[-1], along)
+    x, y, wide, high, lean = (np.interp(at, arc, column) for column in smooth.T)
+    angle = 2 * np.pi * np.arange(around) / around
+    across = np.cos(angle) * wide[1:-1, None]
+    up = np.sin(angle) * high[1:-1, None]
+    tilt = np.radians(lean)[1:-1, None]
+    rings = np.stack([x[1:-1, None] + up * np.sin(tilt), y[1:-1, None] + up * np.cos(tilt), across], -1)
+    mesh = swept(rings, np.array([x[0], y[0], 0]), np.array([x[-1], y[-1], 0]))
+    if mesh.volume < 0:
+        mesh.invert()
+    return mesh
