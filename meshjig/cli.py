@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from meshjig.errors import OptionError
+from meshjig.flags import takes_options
 from meshjig.options import Options
 from meshjig.terminal import (
     BROKEN_PROMISE,
@@ -34,12 +35,10 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-
-def _flag(name: str, *spellings: str) -> Any:
-    return typer.Option(*spellings, help=str(Options.model_fields[name].description), show_default=False)
-
-
 MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, GLB or 3MF file")]
+Config = Annotated[
+    Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="print the result as JSON on standard output")]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
@@ -60,41 +59,19 @@ def _root(
 
 
 @app.command()
+@takes_options()
 def make(
     mesh: MeshPath,
+    flags: dict[str, Any],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
     ] = None,
-    pieces: Annotated[int | None, _flag("pieces", "--pieces")] = None,
-    piece_size: Annotated[float | None, _flag("piece_size", "--piece-size")] = None,
-    size: Annotated[float | None, _flag("size", "--size")] = None,
-    faces: Annotated[str | None, _flag("faces", "--faces")] = None,
-    thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
-    clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
-    min_neck: Annotated[float | None, _flag("min_neck", "--min-neck")] = None,
-    min_wall: Annotated[float | None, _flag("min_wall", "--min-wall")] = None,
-    clearance_method: Annotated[str | None, _flag("clearance_method", "--clearance-method")] = None,
-    join: Annotated[str | None, _flag("join", "--join")] = None,
-    side: Annotated[str | None, _flag("side", "--side")] = None,
-    process: Annotated[str | None, _flag("process", "--process")] = None,
-    resurface: Annotated[bool | None, _flag("resurface", "--resurface/--no-resurface")] = None,
-    layout: Annotated[str | None, _flag("layout", "--layout")] = None,
-    tile: Annotated[str | None, _flag("tile", "--tile")] = None,
-    charts: Annotated[str | None, _flag("charts", "--charts")] = None,
-    stitch: Annotated[float | None, _flag("stitch", "--stitch")] = None,
-    cavities: Annotated[bool | None, _flag("cavities", "--cavities/--no-cavities")] = None,
-    seed: Annotated[int | None, _flag("seed", "--seed")] = None,
-    format: Annotated[str | None, _flag("format", "--format")] = None,
-    curves: Annotated[bool | None, _flag("curves", "--curves/--no-curves")] = None,
-    config: Annotated[
-        Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
-    ] = None,
+    config: Config = None,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
     """Make a puzzle: pieces, 3MF, preview and report."""
-    flags = {name: value for name, value in locals().items() if name in Options.model_fields}
     with sentences(verbose, quiet):
         options = _options(config, flags)
         from meshjig.output.folder import check_target
@@ -118,21 +95,38 @@ def make(
 
 
 @app.command()
-def info(mesh: MeshPath, as_json: AsJson = False, verbose: Verbose = False, quiet: Quiet = False) -> None:
+@takes_options("size", "pieces", "faces", "fill_holes", "cavities", "resurface", "seed")
+def info(
+    mesh: MeshPath,
+    flags: dict[str, Any],
+    charts: Annotated[bool, typer.Option("--charts", help="also cut it into charts and judge them")] = False,
+    method: Annotated[str | None, typer.Option(help="how charts are made, as make's --charts")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="DIR", help="with --charts, draw them there")
+    ] = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
     """Say what a mesh is, and what would be done to it."""
     with sentences(verbose, quiet):
-        from meshjig.scan import describe
+        options = _options(None, flags | ({"charts": method} if method else {}))
+        if charts or method or output:
+            from meshjig.charting import describe_charts
 
-        facts = describe(mesh)
+            facts = describe_charts(mesh, options, output)
+        else:
+            from meshjig.scan import describe
+
+            facts = describe(mesh, size=options.size, faces=options.faces, cavities=options.cavities)
         print(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 @app.command()
+@takes_options("thickness", "clearance", "min_wall")
 def check(
     paths: Annotated[list[Path], typer.Argument(metavar="DIR|FILES", help="a folder of pieces, or files")],
-    thickness: Annotated[float | None, _flag("thickness", "--thickness")] = None,
-    clearance: Annotated[float | None, _flag("clearance", "--clearance")] = None,
-    min_wall: Annotated[float | None, _flag("min_wall", "--min-wall")] = None,
+    flags: dict[str, Any],
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
@@ -148,8 +142,6 @@ def check(
 
         pieces = read_pieces(paths)
         asked = read_asked(paths, [name for name, _, _ in pieces])
-        flags = {"thickness": thickness, "clearance": clearance, "min_wall": min_wall}
-        flags = {name: value for name, value in flags.items() if value is not None}
         verdict = judge(pieces, **(asked._asdict() | flags))
         result: dict[str, Any] = {
             "checks": verdict.checks,
@@ -163,6 +155,33 @@ def check(
     if not verdict.ok:
         tell_broken(verdict.failures)
         raise typer.Exit(BROKEN_PROMISE)
+
+
+@app.command()
+def tiles(
+    name: Annotated[str | None, typer.Argument(help="of a tiling; all are listed if none is given")] = None,
+    svg: Annotated[Path | None, typer.Option("--svg", metavar="FILE", help="draw it there")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="seed of everything random")] = 0,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """List the tilings, or draw one."""
+    with sentences(verbose, quiet):
+        from meshjig.tiling.registry import family_names, get_decor, get_family
+
+        if name is None:
+            known = dict(family_names())
+            print(json.dumps(known, indent=2) if as_json else as_lines(known))
+            return
+        unit = get_family(name, seed)
+        if svg is not None:
+            from meshjig.output.folder import write_text
+            from meshjig.tiling.draw import draw_svg
+
+            write_text(svg, draw_svg(unit, decor=get_decor(name)))
+        facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
+        print(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 def main() -> None:
@@ -182,8 +201,7 @@ def _options(config: Path | None, flags: dict[str, Any]) -> Options:
             given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
             if isinstance(given.get("process"), dict):  # [process.NAME], chosen by --process
                 given["processes"] = given.pop("process")
-        given.update({name: value for name, value in flags.items() if value is not None})
-        return Options.of(**given)
+        return Options.of(**given | flags)
     except OptionError as error:
         say(f"meshjig: {error}")
         raise typer.Exit(USAGE) from None

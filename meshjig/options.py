@@ -51,17 +51,36 @@ class Options(BaseModel):
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
-    layout: Literal["tiles"] = Field("tiles", description="how the surface is divided")
-    tile: Literal["classic", "rectangular"] = Field("classic", description="shape of the knobs")
-    charts: Literal["auto", "lscm", "arap", "slim", "xatlas"] = Field(
+    layout: Literal["cells", "tiles"] = Field(
+        "cells", description="seam-free cells, or planar tiles on charts; tiles where charts or tile is given"
+    )
+    style: Literal["cvt", "quad"] = Field("cvt", description="cells: spread evenly, or four-sided")
+    knob_size: FiniteFloat = Field(1.0, gt=0, le=2, description="cells: size of the knobs, relative")
+    crease_aware: bool = Field(False, description="cells: keep cells and knobs off creases")
+    tile: str = Field("classic", description="tiles: a name of meshjig tiles, or FILE.svg")
+    random: FiniteFloat = Field(0.0, ge=0, le=1, description="how far pieces and knobs differ, 0 to 1")
+    random_style: Literal["bspline", "bilinear"] = Field(
+        "bspline", description="tiles: bend them smoothly, or with kinks"
+    )
+    unique: bool = Field(False, description="let every piece fit in one place only")
+    min_piece: FiniteFloat = Field(
+        0.25, ge=0, le=1, description="share of the mean area below which a piece joins a neighbour"
+    )
+    charts: Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"] = Field(
         "auto", description="how charts are made"
+    )
+    fill_holes: FiniteFloat | None = Field(
+        None, ge=0, description="close holes up to this diameter, mm; half a tile if not given, 0 for none"
+    )
+    angle: FiniteFloat | None = Field(
+        None, description="how far tiles are turned from a chart's long axis, degrees; chosen if not given"
     )
     stitch: FiniteFloat = Field(
         0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     seed: int = Field(0, ge=0, description="seed of everything random")
-    format: tuple[Literal["stl", "3mf", "obj", "glb"], ...] = Field(
+    format: tuple[Literal["stl", "ply", "3mf", "obj", "glb"], ...] = Field(
         ("stl", "3mf"), min_length=1, description="file formats to write, separated by commas"
     )
     curves: bool = Field(
@@ -80,6 +99,8 @@ class Options(BaseModel):
         process = given.get("process", "fdm")
         if not isinstance(process, str) or process not in known:
             raise ValueError(f"process: {process!r} is not known; known are {', '.join(known)}")
+        if "layout" not in given and given.keys() & {"charts", "tile"}:
+            given["layout"] = "tiles"
         return {**known[process], **given}
 
     @classmethod

@@ -2,40 +2,37 @@
 
 from __future__ import annotations
 
-import logging
 from typing import Any
 
 import numpy as np
 
 from meshjig.background import Background
-from meshjig.charts import build_atlas
+from meshjig.celled import cell_layout
+from meshjig.charting import chart, clean_scan
 from meshjig.check import judge, touched_pieces
 from meshjig.check.interlock import interlock
-from meshjig.cut import carry_pieces, cut_curves, gap_outlines, overlay
+from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
 from meshjig.errors import OptionError
 from meshjig.layout import Layout, Parts
-from meshjig.measure import face_areas, interpolate
+from meshjig.measure import face_areas
 from meshjig.options import Options
+from meshjig.output.coat import coats
 from meshjig.output.colours import colours
 from meshjig.output.printable import printable
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.report import assemble_report
-from meshjig.scan import read_scan, refine_long_edges, self_crossings
-from meshjig.sizing import choose_tiles
+from meshjig.scan import refine_long_edges, self_crossings
+from meshjig.smallest import refuse_too_small_pieces
 from meshjig.solid import Shell, kerf, shell
-from meshjig.stitch import region_graph, stitch
-from meshjig.tiling import FAMILIES, tile_charts
+from meshjig.tiled import tile_layout
+from meshjig.tiling.registry import get_family
 from meshjig.topology import border_halfedges, components
-from meshjig.types import Atlas, Floats, Ints, Mesh
+from meshjig.types import Floats, Ints, Mesh, Scan
+from meshjig.unique import LEAST_DIFFERENCE, clashes
 
 __all__ = ["make_puzzle"]
 
-log = logging.getLogger("meshjig")
-
-WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
-TRIES = 3
-FEWEST = 2  # pieces that a puzzle can have
 WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
 
 
@@ -64,34 +61,33 @@ def make_puzzle(
         One of its children; the sentence says what is wrong, where, and what to do.
     """
     options = options or Options.of(**keywords)
+    if options.layout == "tiles":
+        get_family(options.tile, options.seed)  # refuses what it does not know before anything is done
     stages = Stages(progress)
     with stages("scan"):
-        scan = read_scan(
-            mesh,
-            size=options.size,
-            faces=options.faces,
-            cavities=options.cavities,
-            resurface=options.resurface,
-        )
+        scan = clean_scan(mesh, options)
         surface = _with_short_edges(scan.mesh, options)
     beside = Background(_beside_charts, scan.mesh, surface, options, alone=len(surface.F) < WORTH_A_CHILD)
     try:
-        with stages("charts"):
-            atlas = build_atlas(surface, method=options.charts, seed=options.seed)
-        layout = _cut_into_pieces(atlas, options, stages)
+        if options.layout == "cells":
+            layout = cell_layout(surface, options, stages)
+        else:
+            with stages("charts"):
+                atlas = chart(Scan(surface, scan.source, scan.to_source), options)
+            layout = tile_layout(atlas, options, stages)
         _refuse_a_hollow_piece(layout)
         with stages("clearance"):
-            parts = _leave_gaps(atlas, layout, options)
+            parts = _leave_gaps(layout, options)
         with stages("solid"):
             sheets, scan.facts["self_crossings"], crossing = beside.result()
-            solids, solid_facts = _solids(surface, parts, sheets, options)
+            solids, solid_facts = _solids(surface, layout, parts, sheets, options)
     except BaseException:
         beside.cancel()
         raise
     with stages("check"):
-        locks = interlock(layout.cut, layout.knobs, layout.piece_of_face)
+        locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
-        touched = touched_pieces(crossing, layout.cut.parent, layout.piece_of_face)
+        touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [names[i] for i in sorted(touched)]
         verdict = judge(
             [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
@@ -102,18 +98,27 @@ def make_puzzle(
             exempt_pieces=exempt,
         )
         on_surface = parts if options.clearance_method != "solid" else None
-        report = assemble_report(
-            options, scan, atlas, layout, on_surface, locks, verdict, solids, solid_facts
-        )
+        report = assemble_report(options, scan, layout, on_surface, locks, verdict, solids, solid_facts)
     report["exempt_pieces"] = exempt
+    if options.unique:
+        report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
-    tints = colours(len(solids), locks.pairs).tolist()
-    pieces = [
-        Piece(name, V, F, tuple(tint), i + 1)
-        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints, strict=True))
-    ]
+    pieces = _named(solids, names, colours(len(solids), locks.pairs), scan, options)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
     return Puzzle(pieces, report, curves)
+
+
+def _named(
+    solids: list[tuple[Floats, Ints]], names: list[str], tints: Floats, scan: Scan, options: Options
+) -> list[Piece]:
+    """Give solids their names, their colours, and the picture of the scan where it has one."""
+    t, drawn = options.thickness, 0.25 * options.thickness
+    off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
+    dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
+    return [
+        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None)
+        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
+    ]
 
 
 def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None, Ints]:
@@ -129,50 +134,8 @@ def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:
     """Split edges longer than a quarter of a tile: no tile may fall inside a single face."""
     area = float(face_areas(mesh.V, mesh.F).sum())
     tile = options.piece_size or float(np.sqrt(area / options.pieces))
-    _refuse_too_small_tiles(tile, area, options)
+    refuse_too_small_pieces(tile, area, options)
     return Mesh(*refine_long_edges(mesh.V, mesh.F, tile / 4))
-
-
-def _refuse_too_small_tiles(tile: float, area: float, options: Options) -> None:
-    neck = FAMILIES[options.tile](8).neck_width
-    smallest = (2 * options.clearance + 0.1) / neck  # half of the neck is left
-    if tile >= smallest:
-        return
-    most, widest = int(area / smallest**2), max(neck * tile / 2 - 0.05, 0.0)
-    larger = f"pieces of at least {smallest:.2g} mm" if options.piece_size else f"at most {most} pieces"
-    raise OptionError(
-        f"tiles of {tile:.2g} mm have a knob's neck of {neck * tile:.2g} mm, "
-        f"too narrow for a clearance of {options.clearance:g} mm",
-        hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
-    )
-
-
-def _cut_into_pieces(atlas: Atlas, options: Options, stages: Stages) -> Layout:
-    """Tile, cut and stitch; again with other tiles when the number of pieces is too far off."""
-    wanted, tried = options.pieces, []
-    least_border = options.min_neck + options.clearance
-    for _ in range(TRIES):
-        with stages("tiling"):
-            choice = choose_tiles(atlas, wanted, options.stitch, least_border, options.piece_size)
-            outlines, knobs = tile_charts(
-                atlas,
-                choice.size,
-                family=options.tile,
-                shift=choice.shift,
-                min_neck=least_border,
-                seed=options.seed,
-            )
-        with stages("cut"):
-            cut = overlay(atlas, outlines)
-        with stages("stitch"):
-            stitching = stitch(region_graph(cut), options.stitch, choice.size**2, least_border)
-        tried.append(Layout(outlines, knobs, cut, stitching))
-        n = stitching.n_pieces
-        log.info("tiles of %.2f mm give %d pieces (%d expected)", choice.size, n, choice.expected)
-        if options.piece_size or abs(n - options.pieces) <= WITHIN * options.pieces:
-            break
-        wanted = max(1, round(wanted * options.pieces / n))
-    return min(tried, key=lambda layout: abs(layout.stitching.n_pieces - options.pieces))
 
 
 def _refuse_a_hollow_piece(layout: Layout) -> None:
@@ -185,10 +148,11 @@ def _refuse_a_hollow_piece(layout: Layout) -> None:
         raise OptionError("pieces: the model would be a single hollow piece", hint="ask for more pieces")
 
 
-def _leave_gaps(atlas: Atlas, layout: Layout, options: Options) -> Parts:
+def _leave_gaps(layout: Layout, options: Options) -> Parts:
     """Cut the surface once more with the gap, unless the gap is to be taken from the solids."""
     if options.clearance == 0 or options.clearance_method == "solid":
         return Parts(layout.cut, layout.piece_of_face, 0.0)
+    atlas = layout.atlas
     band = gap_outlines(
         atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
     )
@@ -199,11 +163,11 @@ def _leave_gaps(atlas: Atlas, layout: Layout, options: Options) -> Parts:
 
 
 def _solids(
-    surface: Mesh, parts: Parts, sheets: Shell, options: Options
+    surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
 ) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
     """Give the pieces their thickness, as files can hold it."""
     cut = parts.cut
-    outer, D = (interpolate(X, surface.F, cut.vertex_face, cut.vertex_bary) for X in (sheets.outer, sheets.D))
+    outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
     facts["discarded_volume_share"] += parts.discarded

@@ -58,7 +58,7 @@ class Puzzle:
         Parameters
         ----------
         directory : path
-        formats : tuple of "stl", "3mf", "obj", "glb"; as the options have it when not given
+        formats : tuple of "stl", "ply", "3mf", "obj", "glb"; as the options have it when not given
         preview : bool, also draw preview.png
 
         Returns

@@ -12,7 +12,7 @@ from meshjig.check.interlock import Interlock
 from meshjig.layout import Layout, Parts
 from meshjig.measure import face_areas, mesh_volume, sums
 from meshjig.options import Options
-from meshjig.types import Atlas, Floats, Ints, Scan
+from meshjig.types import Floats, Ints, Scan
 
 __all__ = ["assemble_report", "meshjig_version"]
 
@@ -31,7 +31,6 @@ def meshjig_version() -> str:
 def assemble_report(
     options: Options,
     scan: Scan,
-    atlas: Atlas,
     layout: Layout,
     on_surface: Parts | None,
     locks: Interlock,
@@ -43,13 +42,13 @@ def assemble_report(
 
     Parameters
     ----------
-    options, scan, atlas, layout, locks, verdict, solids
+    options, scan, layout, locks, verdict, solids
         What the stages made.
     on_surface : Parts or None
         The surface as it was cut with the gap; None where the gap was taken from the solids.
     solid_facts : dict, what the solid stage says of itself
     """
-    cut, mesh = layout.cut, atlas.mesh
+    cut, mesh = layout.cut, layout.atlas.mesh
     n = layout.stitching.n_pieces
     areas = face_areas(cut.V, cut.F)
     area = sums(layout.piece_of_face, areas, n)
@@ -73,7 +72,7 @@ def assemble_report(
         "meshjig": meshjig_version(),
         "input": scan.facts,
         "options": options.model_dump(),
-        "charts": atlas.facts,
+        "charts": layout.atlas.facts,
         "cut": cut.facts,
         "stitching": layout.stitching.facts,
         "solid": solid_facts,

@@ -48,13 +48,18 @@ def sum_borders(area: Floats, here: Ints, there: Ints, length: Floats, seam: Boo
     return RegionGraph(area, pairs.astype(np.int64), total, unique % 2 == 1)
 
 
-def stitch(graph: RegionGraph, share: float, tile_area: float, least_border: float = 0.0) -> Stitching:
+def stitch(
+    graph: RegionGraph,
+    share: float,
+    tile_area: float,
+    least_border: float = 0.0,
+    smallest: float = SMALLEST_PIECE,
+) -> Stitching:
     """Join regions over seams, then give tiny pieces to a neighbour.
 
     Two regions join over a seam when the border between them is at least a given share of the seam
     border of either. Joins that leave the smallest pieces come first, and none makes a piece larger
-    than 1.4 tiles. Then a piece under a quarter of the mean joins the neighbour that it
-    shares most border with.
+    than 1.4 tiles. Then a piece that is too small joins the neighbour that it shares most border with.
 
     Parameters
     ----------
@@ -62,12 +67,13 @@ def stitch(graph: RegionGraph, share: float, tile_area: float, least_border: flo
     share : float, 0 to 1; at 1 only regions join that meet along the whole seam of one of them
     tile_area : float, area of a whole tile, mm2
     least_border : float, mm; over less of a seam than that a join would be too weak to be made
+    smallest : float, share of the mean area under which a piece is too small
 
     Returns
     -------
     Stitching
         facts: stitched (joins over seams), tiny_merged (pieces that joined a neighbour), tiny_left
-        (pieces under a quarter of the mean without any neighbour).
+        (pieces too small, without any neighbour).
 
     References
     ----------
@@ -75,7 +81,7 @@ def stitch(graph: RegionGraph, share: float, tile_area: float, least_border: flo
     """
     groups = _Groups(graph)
     joins = _join_over_seams(graph, groups, share, LARGEST_JOIN * tile_area, least_border)
-    merged, left = _merge_tiny(groups)
+    merged, left = _merge_tiny(groups, smallest)
     roots = np.array([groups.root(r) for r in range(len(graph.area))], dtype=np.int64)
     piece = np.unique(roots, return_inverse=True)[1].astype(np.int64)
     facts: dict[str, Any] = {"stitched": joins, "tiny_merged": merged, "tiny_left": left}
@@ -137,7 +143,7 @@ def _join_over_seams(
     return joins
 
 
-def _merge_tiny(groups: _Groups) -> tuple[int, int]:
+def _merge_tiny(groups: _Groups, smallest: float) -> tuple[int, int]:
     roots = {groups.root(r) for r in range(len(groups.parent))}
     queue = [(groups.area[r], r) for r in roots]
     heapq.heapify(queue)
@@ -146,7 +152,7 @@ def _merge_tiny(groups: _Groups) -> tuple[int, int]:
         area, piece = heapq.heappop(queue)
         if groups.root(piece) != piece or groups.area[piece] != area:
             continue
-        if area >= SMALLEST_PIECE * total / n:
+        if area >= smallest * total / n:
             break
         if not groups.borders[piece]:
             left += 1

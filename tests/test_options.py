@@ -28,7 +28,6 @@ def test_an_explicit_value_wins_over_the_process():
         ({"thickness": -1}, "thickness"),
         ({"faces": "some"}, "faces"),
         ({"faces": 3}, "faces"),
-        ({"tile": "round"}, "tile"),
         ({"process": "knitting"}, "process"),
         ({"format": "stl,dwg"}, "format"),
         ({"format": ""}, "format"),

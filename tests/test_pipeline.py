@@ -50,11 +50,16 @@ def test_meshes_come_as_arrays_objects_and_files(source, tmp_path):
     assert len(meshjig.make_puzzle(given, pieces=10).pieces) == pytest.approx(10, abs=1)
 
 
-def test_progress_names_the_stages():
+@pytest.mark.parametrize(("layout", "second"), [("cells", "cells"), ("tiles", "charts")])
+def test_progress_names_the_stages(layout, second):
     heard = []
-    meshjig.make_puzzle(sphere(1000), pieces=8, progress=lambda stage, event: heard.append((stage, event)))
+
+    def hear(stage, event):
+        heard.append((stage, event))
+
+    meshjig.make_puzzle(sphere(1000), pieces=8, layout=layout, progress=hear)
     started = [stage for stage, event in heard if event == "start"]
-    assert started[:2] == ["scan", "charts"]
+    assert started[:2] == ["scan", second]
     assert started[-1] == "check"
     assert len(heard) == 2 * len(started)
 

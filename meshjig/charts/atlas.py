@@ -1,34 +1,24 @@
 """Cut a mesh into flat charts: the stage as a whole."""
 
 import logging
-from collections.abc import Callable
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.flatten import Method, border_is_simple, flatten, is_unflipped, unit_stretch
-from meshjig.charts.layout import lie_along, shelves
+from meshjig.charts.auto import GATE, chart_component
+from meshjig.charts.chart import Chart, Charting
+from meshjig.charts.layout import lay_out
 from meshjig.charts.mapped import MappedAtlas
-from meshjig.charts.part import part
-from meshjig.charts.proxy import proxy
-from meshjig.charts.quality import quality
-from meshjig.charts.rescue import rescue
-from meshjig.charts.segment import segment
+from meshjig.charts.quality import quality, seam_over_sqrt_area
 from meshjig.charts.steady import steady
-from meshjig.charts.transfer import transfer_labels, transfer_uv
-from meshjig.charts.untangle import untangle
-from meshjig.charts.unwrap import unwrap
+from meshjig.charts.unwrap import chart_options
 from meshjig.errors import ChartError, OptionError
-from meshjig.topology import compact, components, edges, is_disc
-from meshjig.types import Atlas, Mesh
+from meshjig.topology import compact, components, edges
+from meshjig.types import Atlas, Floats, Ints, Mesh
 
 __all__ = ["AtlasMethod", "build_atlas"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Chart = tuple[Ints, Floats]  # faces; uv of the vertices that compact(F[faces]) keeps
-AtlasMethod = Literal["auto", "lscm", "arap", "slim", "xatlas"]
+AtlasMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"]
 
 
 def build_atlas(
@@ -37,6 +27,10 @@ def build_atlas(
     method: AtlasMethod = "auto",
     seed: int = 0,
     margin: float = 5.0,
+    zipped: bool = True,
+    xatlas_options: dict[str, Any] | None = None,
+    source: Any = None,
+    to_source: Floats | None = None,
     log: logging.Logger | None = None,
 ) -> MappedAtlas:
     """Cut a mesh into few, large, nearly flat charts and lay them out in one plane.
@@ -46,85 +40,93 @@ def build_atlas(
     mesh : Mesh
         Any genus, open or closed, any number of components.
     method : str
-        How charts are flattened; "auto" is SLIM. With "xatlas", xatlas also chooses the charts.
+        "lscm", "arap" and "slim" flatten the charts of our own segmentation. "xatlas" lets xatlas choose
+        the charts. "single" makes one chart of each component, "periodic" rings around it; "uv" takes
+        what the file brought along. "auto" chooses for each component by measured gates.
     seed : int
     margin : float, mm, between the charts in the plane
+    zipped : bool
+        Glue the charts of our own segmentation along their seams for as long as they stay good.
+    xatlas_options : dict, fields of xatlas.ChartOptions, for "xatlas"
+    source : trimesh.Trimesh, the mesh as it was loaded, for "uv"
+    to_source : (4, 4) float64, takes coordinates of the mesh to those of source; for "uv"
     log : logging.Logger, hears what was done
 
     Returns
     -------
     MappedAtlas
-        Every chart is a disc, no face is mirrored, and the mean stretch of each chart is 1. Its
-        facts are those of quality(), and the method.
+        Every chart is a disc, cut inside or not, or a ring cut open; no face is mirrored, and the mean
+        stretch of each chart is 1. Its facts are those of quality(), and method, reason (a sentence),
+        n_charts_before_zip, seam_before_zip (as seam_over_sqrt_area) and zipped (seams that were glued).
 
     Raises
     ------
     OptionError
-        The method is unknown.
+        The method or an option of xatlas is unknown, or the source is missing.
     ChartError
-        The mesh is not manifold, or has faces that can't be flattened.
+        The mesh is not manifold, has faces that can't be flattened, or does not suit the method.
     """
     if method not in get_args(AtlasMethod):
         raise OptionError(
             f"charts: unknown method {method!r}", hint="use " + ", ".join(get_args(AtlasMethod))
         )
+    if method == "uv" and source is None:
+        raise OptionError("charts: uv needs the mesh as it was loaded", hint="give it as source")
+    chart_options(xatlas_options or {})
     if not len(mesh.F) or edges(mesh.F).n_faces.max() > 2:
         raise ChartError("the mesh is empty or not manifold", hint="repair it first")
-    flattening: Method = "slim" if method == "auto" or method == "xatlas" else method
-    chooser = unwrap if method == "xatlas" else segment
-    charts: list[Chart] = []
-    V = steady(mesh.V, mesh.F, seed)
-    n, component = components(mesh.F)
-    for c in range(n):
-        faces = np.flatnonzero(component == c)
-        G, kept = compact(mesh.F[faces])
-        charts += [(faces[own], uv) for own, uv in _charts(V[kept], G, flattening, seed, chooser)]
-    atlas = _lay_out(mesh, charts, margin)
-    facts: dict[str, Any] = {**quality(atlas), "method": "xatlas" if method == "xatlas" else flattening}
+    parts: list[tuple[Ints, Charting]] = []  # faces, and how they were charted
+    if method == "uv":
+        from meshjig.charts.own_uv import own_uv
+
+        brought = own_uv(mesh, source, np.eye(4) if to_source is None else to_source)
+        parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
+    else:
+        V = steady(mesh.V, mesh.F, seed)
+        n, component = components(mesh.F)
+        for c in range(n):
+            faces = np.flatnonzero(component == c)
+            F, kept = compact(mesh.F[faces])
+            made = chart_component(
+                V[kept], F, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options
+            )
+            parts.append((faces, made))
+    atlas = lay_out(mesh, [_shifted(chart, faces) for faces, made in parts for chart in made.charts], margin)
+    facts = _facts(atlas, parts)
     if log is not None:
-        log.info("charts: %s", facts)
-    return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts)
+        log.info("charts: %s", facts["reason"])
+    return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts, atlas.period)
 
 
-def _charts(V: Floats, F: Ints, method: Method, seed: int, choose: Callable[..., Ints]) -> list[Chart]:
-    """Cut and flatten one component."""
-    W, G = proxy(V, F)
-    of_light = choose(W, G, seed=seed)
-    of_face = of_light if G is F else transfer_labels(V, F, W, G, of_light)
-    charts: list[Chart] = []
-    for label in range(int(of_light.max()) + 1):
-        faces = np.flatnonzero(of_face == label)
-        if not len(faces):
-            continue
-        uv = _carried(V, F[faces], W, G[of_light == label], method) if G is not F else None
-        charts += [(faces, uv)] if uv is not None else rescue(V, F, faces, method, seed)
-    return charts
+def _shifted(chart: Chart, faces: Ints) -> Chart:
+    """Let a chart of some faces be one of the whole mesh."""
+    return Chart(faces[chart.faces], chart.uv, chart.corners, chart.period)
 
 
-def _carried(V: Floats, F: Ints, W: Floats, G: Ints, method: Method) -> Floats | None:
-    """Flatten a chart by way of its proxy; None where that makes no sound chart."""
-    if not is_disc(F):
-        return None
-    (F, kept), (G, light) = compact(F), compact(G)
-    V, W = V[kept], W[light]
-    try:
-        uv = part(V, F, untangle(V, F, transfer_uv(V, W, G, flatten(W, G, method))))
-    except ChartError:
-        return None
-    return unit_stretch(V, F, uv) if is_unflipped(uv, F) and border_is_simple(uv, F) else None
+def _facts(atlas: Atlas, parts: list[tuple[Ints, Charting]]) -> dict[str, Any]:
+    """Measure an atlas, and say how it came about."""
+    F, facts = atlas.mesh.F, quality(atlas)
+    before = atlas.chart_of_face.copy()
+    for faces, made in parts:
+        if made.leaf is not None:
+            before[faces] = made.leaf + before.max() + 1
+    n_before, twin = len(np.unique(before)), edges(F).twin
+    seam = np.repeat(before, 3) != np.repeat(before, 3)[twin]
+    largest_first = sorted(parts, key=lambda part: -len(part[0]))
+    facts["method"] = "+".join(dict.fromkeys(made.method for _, made in largest_first))
+    facts["n_charts_before_zip"] = n_before
+    facts["seam_before_zip"] = seam_over_sqrt_area(atlas.mesh.V, F, seam)
+    facts["zipped"] = max(n_before - facts["n_charts"], 0)
+    facts["reason"] = _reason(facts, [made.note for _, made in largest_first])
+    return facts
 
 
-def _lay_out(mesh: Mesh, charts: list[Chart], margin: float) -> Atlas:
-    """Number the charts, the largest first, and place them in one plane."""
-    charts = sorted(charts, key=lambda chart: -len(chart[0]))
-    plans = [lie_along(uv) for _, uv in charts]
-    corners = shelves(np.array([uv.max(0) for uv in plans]), margin)
-    F_uv = np.empty_like(mesh.F)
-    chart_of_face = np.empty(len(mesh.F), np.int64)
-    start = 0
-    for number, (faces, uv) in enumerate(charts):
-        F_uv[faces] = compact(mesh.F[faces])[0] + start
-        chart_of_face[faces] = number
-        start += len(uv)
-    placed = np.concatenate([uv + corner for uv, corner in zip(plans, corners, strict=True)])
-    return Atlas(mesh, placed, F_uv, chart_of_face)
+def _reason(facts: dict[str, Any], notes: list[str]) -> str:
+    """Say in one sentence what was taken, how good it is, and what was not taken."""
+    n, share = facts["n_charts"], facts["gate_share"]
+    glued = f" glued from {facts['n_charts_before_zip']}" if facts["zipped"] else ""
+    short = "" if share >= GATE else f", short of {GATE:.0%}"
+    said = (
+        f"{facts['method']}: {n} chart{'s' * (n > 1)}{glued}, {share:.1%} of the area within the gate{short}"
+    )
+    return "; ".join(dict.fromkeys([said, *filter(None, notes)]))

@@ -42,6 +42,12 @@ class Bend:
         e = edges(F)
         self._n_faces[e.E[e.n_faces == 1].ravel()] = -1  # a border vertex is inner to no region
 
+    def exceeds(self, faces: Ints, limit: float) -> bool:
+        """Tell whether the spread over faces (k,), a disc, is above a limit; with little curvature, at once."""
+        if np.abs(self._curvature[self._inner(faces)]).sum() < limit:
+            return False
+        return self.spread(faces) > limit
+
     def spread(self, faces: Ints) -> float:
         """Give the spread of log scale over the middle 99 % of the area of some faces.
 
@@ -52,7 +58,7 @@ class Bend:
         from scipy.sparse.linalg import splu
 
         G = self._F[faces]
-        inner = np.flatnonzero(np.bincount(G.ravel(), minlength=len(self._n_faces)) == self._n_faces)
+        inner = self._inner(faces)
         if not len(inner):
             return 0.0
         matrix = self._laplacian[inner][:, inner].tocsc()
@@ -67,3 +73,8 @@ class Bend:
         share = np.cumsum(self._area[faces][order])
         low, high = np.searchsorted(share, [0.005 * share[-1], 0.995 * share[-1]])
         return float(u[order[min(high, len(u) - 1)]] - u[order[low]])
+
+    def _inner(self, faces: Ints) -> Ints:
+        """List the vertices around which all faces are among these."""
+        n = np.bincount(self._F[faces].ravel(), minlength=len(self._n_faces))
+        return np.flatnonzero(n == self._n_faces)

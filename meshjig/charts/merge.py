@@ -12,10 +12,11 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _CREASE_WORTH = 0.15  # a border along a sharp fold is hardly seen: little is won by removing it
+_SIZE, _RIM = 0.5, 0.15  # what a large chart, and one with a long rim for its size, counts against a merge
 
 
 def merge(dual: Dual, label: Ints, judge: Judge) -> Ints:
-    """Merge greedily, the pair first that loses most border for the size of its smaller part.
+    """Merge greedily, the pair first that loses most border for what is left, in size and in rim.
 
     Parameters
     ----------
@@ -56,6 +57,8 @@ def _pairs(dual: Dual, label: Ints) -> list[tuple[int, int]]:
     border = np.bincount(a, shared, k) + np.bincount(b, shared, k)
     area = np.bincount(label, dual.area, k)
     gain = shared / np.maximum(np.minimum(border[a], border[b]), 1e-300)
-    cost = 0.5 * np.sqrt((area[a] + area[b]) / area.sum()) - gain
+    size = np.sqrt(area[a] + area[b])
+    rim = (border[a] + border[b] - 2 * shared) / np.maximum(size, 1e-300)
+    cost = _SIZE * size / np.sqrt(area.sum()) + _RIM * rim - gain
     order = np.argsort(cost, kind="stable")
     return list(zip(a[order].tolist(), b[order].tolist(), strict=True))

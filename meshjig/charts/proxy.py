@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.coarsen import coarsen
 from meshjig.errors import ChartError
 from meshjig.measure import vertex_normals
 from meshjig.topology import edges, fans
@@ -12,6 +13,7 @@ __all__ = ["proxy"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_HEAVY = 6  # times as many faces as wanted: from there on, decimation takes too long
 _ROUGH = 0.25  # mean of 1 - cos between vertex normals over an edge; smooth shapes stay below 0.1
 
 
@@ -38,6 +40,8 @@ def proxy(V: Floats, F: Ints, n_faces: int = 6000) -> tuple[Floats, Ints]:
     """
     if len(F) <= 1.5 * n_faces:
         return V, F
+    while len(F) > _HEAVY * n_faces and (light := coarsen(V, F)) is not None:
+        V, F = light
     try:
         import pymeshlab
     except ImportError as error:
@@ -55,11 +59,11 @@ def proxy(V: Floats, F: Ints, n_faces: int = 6000) -> tuple[Floats, Ints]:
         qualitythr=0.5,
         planarquadric=True,
     )
-    light = meshes.current_mesh()
-    G, origin = fans(np.ascontiguousarray(light.face_matrix(), np.int64))
+    mesh = meshes.current_mesh()
+    G, origin = fans(np.ascontiguousarray(mesh.face_matrix(), np.int64))
     if not len(G) or edges(G).n_faces.max() > 2:
         return V, F
-    return np.ascontiguousarray(light.vertex_matrix()[origin]), G
+    return np.ascontiguousarray(mesh.vertex_matrix()[origin]), G
 
 
 def _roughness(V: Floats, F: Ints) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.dual import dual
-from meshjig.charts.flatten import Method, border_is_simple, flatten
+from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.patches import patches
 from meshjig.errors import ChartError
 from meshjig.topology import compact, components, is_disc
@@ -13,6 +13,8 @@ __all__ = ["rescue"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+_LEAST_SHARE = 0.9  # of the area within FLAT_LIMITS
 
 
 def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[tuple[Ints, Floats]]:
@@ -29,6 +31,11 @@ def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[t
     Returns
     -------
     list of (faces, uv) : the charts; uv belongs to the vertices that compact(F[faces]) keeps
+
+    Raises
+    ------
+    ChartError
+        A face has no area.
     """
     done = []
     todo = [faces]
@@ -49,11 +56,20 @@ def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[t
 
 
 def _sound(V: Floats, F: Ints, method: Method) -> Floats | None:
-    """Flatten faces; None where they are no disc, fold or overlap themselves."""
+    """Flatten faces; None where they are no disc, fold, overlap themselves, or hardly lie flat.
+
+    A conformal map may scale as it likes. SLIM may stop far from flat where it would overlap; ARAP
+    then often does not.
+    """
     if not is_disc(F):
         return None
-    try:
-        uv = flatten(V, F, method)
-    except ChartError:
-        return None
-    return uv if border_is_simple(uv, F) else None
+    by: tuple[Method, ...] = ("slim", "arap") if method == "slim" else (method,)
+    for one in by:
+        try:
+            uv = flatten(V, F, one)
+        except ChartError:
+            return None
+        flat = method == "lscm" or flat_share(V, F, uv) >= _LEAST_SHARE
+        if flat and border_is_simple(uv, F):
+            return uv
+    return None

@@ -4,22 +4,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.dissolve import dissolve
-from meshjig.charts.dual import dual
+from meshjig.charts.dual import Dual, dual
 from meshjig.charts.judge import Judge
 from meshjig.charts.merge import merge
 from meshjig.charts.patches import patches
+from meshjig.charts.polish import polish
+from meshjig.charts.proxy import proxy
 from meshjig.charts.smooth import smooth
 from meshjig.charts.split import split
 from meshjig.charts.tidy import tidy
+from meshjig.charts.transfer import transfer_labels
 
 __all__ = ["segment"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_SKETCH = 2500  # faces on which charts are sought; more of them find no better charts
+_TRIES = 3
+_SKETCH_SHARE = 0.993  # a little more than is asked of the mesh, so that few charts need mending
+
 
 def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 2) -> Ints:
     """Label each face of one component with its chart.
+
+    Charts are sought on a sketch of the mesh, several times from other patches; the best of the
+    divisions is carried over, and mended where the finer surface does not bear it.
 
     Parameters
     ----------
@@ -34,10 +44,25 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
     chart_of_face : (m,) int64, 0 to k - 1; every chart is one that the Judge accepts, or a single face
     """
     judge = Judge(V, F)
-    whole = np.zeros(len(F), np.int64)
     if judge.accepts(np.arange(len(F))):
-        return whole
+        return np.zeros(len(F), np.int64)
+    W, G = proxy(V, F, _SKETCH)
+    sketch = Judge(W, G, _SKETCH_SHARE) if G is not F else judge
+    graph = dual(W, G)
+    found = [_search(W, G, graph, sketch, n_patches, seed + k, rounds) for k in range(_TRIES)]
+    label = min(found, key=lambda label: _cost(graph, label))
+    if G is F:
+        return polish(F, graph, label, judge)
     graph = dual(V, F)
+    label = transfer_labels(V, F, W, G, label)
+    label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
+    return polish(F, graph, dissolve(V, F, graph, label, judge, seed), judge)
+
+
+def _search(
+    V: Floats, F: Ints, graph: Dual, judge: Judge, n_patches: int, seed: int, rounds: int
+) -> Ints:
+    """Merge patches to charts, then smooth and merge again for as long as that helps."""
     label = merge(graph, split(V, F, patches(graph, n_patches, seed), judge.accepts, seed), judge)
     for _ in range(rounds):
         straight = tidy(F, smooth(graph, label), graph.area)
@@ -46,3 +71,9 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
             break
         label = dissolve(V, F, graph, smoother, judge, seed)
     return label
+
+
+def _cost(graph: Dual, label: Ints) -> float:
+    """Weigh charts against the length of their seams, in roots of the area."""
+    seam = graph.length[label[graph.first] != label[graph.second]].sum()
+    return float(label.max() + seam / np.sqrt(graph.area.sum()))

@@ -1,11 +1,13 @@
 """Straighten chart borders by letting labels diffuse."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.dual import Dual
 
-__all__ = ["smooth"]
+__all__ = ["diffusion", "smooth"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -32,6 +34,20 @@ def smooth(dual: Dual, label: Ints, reach: float = 0.02, steps: int = 2) -> Ints
     ----------
     Merriman, Bence, Osher, "Diffusion Generated Motion by Mean Curvature", 1992.
     """
+    diffuse = diffusion(dual, reach)
+    for _ in range(steps):
+        label = diffuse(label).argmax(1).astype(np.int64)
+    return label
+
+
+def diffusion(dual: Dual, reach: float) -> Callable[[Ints], Floats]:
+    """Give the function that turns labels (m,) of faces into their diffused indicators (m, k).
+
+    Parameters
+    ----------
+    dual : Dual
+    reach : float, of the root of the area
+    """
     from scipy.sparse import diags
     from scipy.sparse.linalg import splu
 
@@ -42,8 +58,11 @@ def smooth(dual: Dual, label: Ints, reach: float = 0.02, steps: int = 2) -> Ints
     area = np.maximum(dual.area, 1e-9 * dual.area.mean())
     matrix = (diags(area) + time * L).tocsc()
     solver = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
-    for _ in range(steps):
+
+    def diffuse(label: Ints) -> Floats:
         indicator = np.zeros((len(label), int(label.max()) + 1))
         indicator[np.arange(len(label)), label] = area
-        label = solver.solve(indicator).argmax(1).astype(np.int64)
-    return label
+        shares: Floats = solver.solve(indicator)
+        return shares
+
+    return diffuse

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.topology import components, edges
+from meshjig.topology import edges
 
 __all__ = ["tidy"]
 
@@ -29,28 +29,20 @@ def tidy(F: Ints, label: Ints, area: Floats) -> Ints:
     """
     twin = edges(F).twin
     around = np.where(twin == np.arange(len(twin)), -1, twin // 3).reshape(-1, 3)
-    label = _without_islands(F, label.copy(), area, around)
+    label = _without_islands(label.copy(), area, around)
     for n in range(_ROUNDS):
-        change = _majority(label, around)
-        turn = (change >= 0) & (change != label)
-        if turn.any():
-            # All at once, neighbouring teeth would swap for ever.
-            turn &= np.random.default_rng(n).random(len(label)) < 0.6
-            label[turn] = change[turn]
-            continue
+        _without_teeth(label, around, n)
         pinched = _pinched(F, label, twin)
         if not len(pinched):
             break
         _unpinch(F, label, pinched)
-        label = _without_islands(F, label, area, around)
-    return _without_islands(F, label, area, around)
+        label = _without_islands(label, area, around)
+    return _without_islands(label, area, around)
 
 
-def _without_islands(F: Ints, label: Ints, area: Floats, around: Ints) -> Ints:
+def _without_islands(label: Ints, area: Floats, around: Ints) -> Ints:
     """Give all but the largest part of each label to the labels around."""
-    twin = edges(F).twin
-    wall = np.repeat(label, 3) != np.repeat(label, 3)[twin]
-    n, part = components(F, wall)
+    n, part = _parts(label, around)
     size = np.bincount(part, area, n)
     owner = np.empty(n, np.int64)
     owner[part] = label
@@ -58,17 +50,49 @@ def _without_islands(F: Ints, label: Ints, area: Floats, around: Ints) -> Ints:
     largest = np.full(int(label.max()) + 1, -1)
     known = order[owner[order] >= 0]
     largest[owner[known]] = known
-    loose = (owner[part] < 0) | (largest[owner[part]] != part)
-    while loose.any():
-        near = np.where((around >= 0) & ~loose[around], label[around], -1)
+    stray = (owner < 0) | (largest[owner] != np.arange(n))
+    loose = stray[part]
+    todo = np.flatnonzero(loose)
+    while len(todo):
+        near = np.where((around[todo] >= 0) & ~loose[around[todo]], label[around[todo]], -1)
         best = np.where(near[:, 1] == near[:, 2], near[:, 1], near[:, 0])
         best = np.where(best < 0, near.max(1), best)
-        reached = loose & (best >= 0)
+        reached = best >= 0
         if not reached.any():
             break
-        label[reached] = best[reached]
-        loose[reached] = False
+        label[todo[reached]] = best[reached]
+        loose[todo[reached]] = False
+        todo = todo[~reached]
     return label
+
+
+def _parts(label: Ints, around: Ints) -> tuple[int, Ints]:
+    """Number the regions of one label that hang together."""
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    joined = (around >= 0) & (label[around] == label[:, None])
+    start = np.append(0, np.cumsum(joined.sum(1)))
+    graph = csr_matrix((np.ones(start[-1], np.int8), around[joined], start), shape=(len(label),) * 2)
+    n, part = connected_components(graph, directed=False)
+    return int(n), part
+
+
+def _without_teeth(label: Ints, around: Ints, seed: int) -> None:
+    """Give faces between two neighbours of one other label that label, until none is left."""
+    near = np.where(around >= 0, label[around], -1)
+    active = np.flatnonzero((near != label[:, None]).any(1))
+    for n in range(_ROUNDS):
+        change = _majority(label, around[active])
+        turn = (change >= 0) & (change != label[active])
+        if not turn.any():
+            return
+        # All at once, neighbouring teeth would swap for ever.
+        turn &= np.random.default_rng([seed, n]).random(len(active)) < 0.6
+        turned = active[turn]
+        label[turned] = change[turn]
+        active = np.unique(np.concatenate([active, around[turned].ravel()]))
+        active = active[active >= 0]
 
 
 def _majority(label: Ints, around: Ints) -> Ints:

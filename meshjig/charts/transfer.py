@@ -3,21 +3,29 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.charts.dual import dual
-from meshjig.charts.smooth import smooth
+from meshjig.charts.dual import Dual, dual
+from meshjig.charts.smooth import diffusion
 from meshjig.charts.tidy import tidy
-from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
+from meshjig.measure import area_vectors, barycentric, interpolate
+from meshjig.topology import next_halfedge
 
 __all__ = ["transfer_labels", "transfer_uv"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
-_REACH = 0.008  # of the root of the area: a proxy's faces show as teeth along its borders
+_REACH = 0.02  # of the root of the area: a proxy's faces show as teeth along its borders
+_FOLD = 0.75  # cosine between normals; over sharper edges shares are not averaged
+_SURE = 0.999  # the share from which a label has no rival
+_AT_ONCE = 2_000_000  # numbers to hold in memory
 
 
 def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints:
-    """Give each face of a mesh the label of the nearest face of its proxy, with borders made straight.
+    """Give each face of a mesh the label that its place on a proxy has, with borders made straight.
+
+    On the proxy, labels diffuse into shares; they are interpolated like colours, so that borders of
+    the mesh cut smoothly through the faces of the proxy. Folds hold them in place.
 
     Parameters
     ----------
@@ -29,14 +37,54 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     -------
     label : (m,) int64. A label may come out empty, or as no disc: the caller checks.
     """
+    graph = dual(W, G)
+    share = _corner_shares(graph, G, diffusion(graph, _REACH)(label))
+    best = share.argmax(2)
+    sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
+    clear = np.where(sure, best[:, 0], -1)
+    near, _ = _nearest(V, W, G)
+    of_corner = clear[near][F]
+    known = np.where((of_corner == of_corner[:, :1]).all(1), of_corner[:, 0], -1)
+    N, M = area_vectors(V, F), area_vectors(W, G)
+    rivals = np.flatnonzero(known < 0)
+    centre, bary = _nearest(V[F[rivals]].mean(1), W, G)
+    known[rivals] = _strongest(share[centre], np.clip(bary, 0, 1))
+    seen = M[near][F].sum(1)
+    seen[rivals] = M[centre]
+    same_side = np.einsum("ij,ij->i", N, seen) >= 0  # of a thin sheet
+    if same_side.any():
+        known[~same_side] = -1
+    return tidy(F, known, np.linalg.norm(N, axis=1))
+
+
+def _corner_shares(graph: Dual, G: Ints, share: Floats) -> Floats:
+    """Average the shares of faces around their corners, not over folds; (m', 3, k)."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    flat = graph.bend > _FOLD
+    a, b = graph.halfedge[flat], graph.twin[flat]
+    rows = np.concatenate([a, next_halfedge(a)])
+    cols = np.concatenate([next_halfedge(b), b])
+    join = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(G.size, G.size))
+    n, fan = connected_components(join, directed=False)
+    weight = np.repeat(np.maximum(graph.area, 1e-9 * graph.area.mean()), 3)
+    total = np.bincount(fan, weight, n)
+    spread = coo_matrix((weight / total[fan], (fan, np.arange(G.size) // 3)), shape=(n, len(G))).tocsr()
+    return np.asarray(spread @ share)[fan.reshape(-1, 3)]
+
+
+def _strongest(share: Floats, bary: Floats) -> Ints:
+    """Give the label with most share at points of faces, of whose corners share (f, 3, k) tells."""
+    return np.einsum("fj,fjl->fl", bary, share).argmax(1)
+
+
+def _nearest(points: Floats, W: Floats, G: Ints) -> tuple[Ints, Floats]:
+    """Give the face of a mesh that is nearest to each point, and the place in its plane."""
     import igl
 
-    _, near, _ = igl.point_mesh_squared_distance(V[F].mean(1), W, G)
-    N, M = area_vectors(V, F), area_vectors(W, G)
-    same_side = np.einsum("ij,ij->i", N, M[near]) >= 0  # of a thin sheet
-    known = np.where(same_side, label[near], -1) if same_side.any() else label[near]
-    area = face_areas(V, F)
-    return tidy(F, smooth(dual(V, F), tidy(F, known, area), _REACH), area)
+    _, face, _ = igl.point_mesh_squared_distance(points, W, G)
+    return face, barycentric(W, G, face, points)
 
 
 def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:
@@ -54,9 +102,7 @@ def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:
     -------
     uv : (n, 2) float64, mm. Faces may come out mirrored: see untangle.
     """
-    import igl
-
-    _, face, _ = igl.point_mesh_squared_distance(V, W, G)
-    bary = np.clip(barycentric(W, G, face, V), -1.0, 2.0)
+    face, bary = _nearest(V, W, G)
+    bary = np.clip(bary, -1.0, 2.0)
     bary[:, 0] = 1 - bary[:, 1] - bary[:, 2]
     return interpolate(uv, G, face, bary)

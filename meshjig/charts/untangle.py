@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.measure import singular_values
-from meshjig.topology import edges
+from meshjig.topology import compact, edges
 
-__all__ = ["untangle"]
+__all__ = ["faces_around", "untangle"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _THINNEST = 1e-3  # the lesser stretch below which a face counts as mirrored
 _BORDER_STAYS = 2  # rounds in which only inner vertices move
@@ -34,13 +35,32 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
     -------
     uv : (n, 2) float64, mm. Mirrored faces may be left: the caller checks.
     """
-    from scipy.sparse import diags
-    from scipy.sparse.linalg import spsolve
-
     bad = _mirrored(V, F, uv)
     if not bad.any():
         return uv
-    adjacency, along_border, on_border = _neighbours(F, len(V))
+    near = faces_around(F, bad, rounds // 2 + 2)
+    H, kept = compact(F[near])
+    stays = np.zeros(len(V), bool)
+    stays[F[~near].ravel()] = True
+    uv = uv.copy()
+    uv[kept] = _relaxed(V[kept], H, uv[kept], stays[kept], bad[near], rounds)
+    return uv
+
+
+def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
+    """Mark faces (m,) and rings of faces around them, (m,) bool."""
+    reached = np.zeros(int(F.max()) + 1, bool)
+    for _ in range(rings):
+        reached[F[faces].ravel()] = True
+        faces = reached[F].any(1)
+    return faces
+
+
+def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: int) -> Floats:
+    from scipy.sparse import diags
+    from scipy.sparse.linalg import spsolve
+
+    adjacency, along_border, on_border = _neighbours(F, stays)
     inner = diags((~on_border).astype(float))
     W = (inner @ adjacency + along_border).tocsr()
     L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()
@@ -51,6 +71,7 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
             moves &= ~on_border
         for _ in range(n // 2):
             moves |= (adjacency @ moves.astype(float) > 0) & ~on_border
+        moves &= ~stays
         free, fixed = np.flatnonzero(moves), np.flatnonzero(~moves)
         if len(free) and len(fixed):
             target = spsolve(L[free][:, free].tocsc(), -(L[free][:, fixed] @ uv[fixed]))
@@ -63,11 +84,11 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
     return uv
 
 
-def _mirrored(V: Floats, F: Ints, uv: Floats) -> NDArray[np.bool_]:
+def _mirrored(V: Floats, F: Ints, uv: Floats) -> Bools:
     return singular_values(V, F, uv)[:, 1] <= _THINNEST
 
 
-def _stand_up_ears(V: Floats, F: Ints, uv: Floats, moves: NDArray[np.bool_]) -> None:
+def _stand_up_ears(V: Floats, F: Ints, uv: Floats, moves: Bools) -> None:
     """Give moved corners of one face only, which the mean along the border lays flat, that face's shape."""
     tip = np.bincount(F.ravel(), minlength=len(V))[F] == 1
     tip &= (tip.sum(1) == 1)[:, None] & moves[F]
@@ -81,12 +102,15 @@ def _stand_up_ears(V: Floats, F: Ints, uv: Floats, moves: NDArray[np.bool_]) -> 
     uv[apex] = uv[a] + along[:, None] * flat + height[:, None] * flat[:, ::-1] * [-1.0, 1.0]
 
 
-def _neighbours(F: Ints, n: int) -> tuple[Any, Any, NDArray[np.bool_]]:
-    """Give who is joined by an edge, who by a border edge, and who lies on the border."""
+def _neighbours(F: Ints, stays: Bools) -> tuple[Any, Any, Bools]:
+    """Give who is joined by an edge, who by a border edge, and who lies on the border.
+
+    Where faces were left out, both ends of an edge stay: that is no border.
+    """
     from scipy.sparse import coo_matrix
 
-    e = edges(F)
-    rim = e.E[e.n_faces == 1]
+    e, n = edges(F), len(stays)
+    rim = e.E[(e.n_faces == 1) & ~stays[e.E].all(1)]
     on_border = np.zeros(n, bool)
     on_border[rim.ravel()] = True
     every = coo_matrix((np.ones(len(e.E)), e.E.T), shape=(n, n))

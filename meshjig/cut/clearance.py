@@ -156,7 +156,7 @@ def _as_outlines(band: Any, clearance: float) -> Outlines:
     rings = shapely.get_rings(shapely.orient_polygons(shapely.get_parts(band)))
     rings = rings[shapely.area(shapely.polygons(rings)) > clearance**2]
     points, ring = shapely.get_coordinates(rings, return_index=True)
-    repeats_first = np.append(ring[1:] != ring[:-1], True)
+    repeats_first = np.append(ring[1:] != ring[:-1], True)[: len(ring)]
     points, ring = points[~repeats_first], ring[~repeats_first]
     size = np.bincount(ring, minlength=len(rings))
     first = np.cumsum(size) - size

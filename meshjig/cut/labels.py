@@ -10,9 +10,10 @@ from meshjig.cut.links import Links
 from meshjig.cut.predicates import orient, vertex_left_of_segment
 from meshjig.cut.sheet import Sheet
 from meshjig.cut.snap import Graph
+from meshjig.topology import edges
 from meshjig.types import Bools, Ints
 
-__all__ = ["label_at", "label_regions", "regions"]
+__all__ = ["joined_over_seams", "label_at", "label_regions", "regions"]
 
 
 def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
@@ -81,6 +82,30 @@ def label_regions(
     label[region[order]] = values[value[order]]  # the last word, said most often, stays
     known[region] = True
     return label, known, int((values[said] != label[where]).sum()) if len(said) else 0
+
+
+def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
+    """Join regions of one label that meet over a seam; faces without a label stay apart.
+
+    Parameters
+    ----------
+    F : (m, 3) int64, the cut mesh
+    label : (m,) int64
+    region : (m,) int64, all of one label each
+
+    Returns
+    -------
+    region : (m,) int64, 0 to r - 1
+    """
+    n = int(region.max(initial=-1)) + 1
+    twin = edges(F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    here, there = h // 3, twin[h] // 3
+    alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)
+    pairs = region[here[alike]], region[there[alike]]
+    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(n, n))
+    _, joined = connected_components(graph, directed=False)
+    return joined.astype(np.int64)[region]
 
 
 def label_at(graph: Graph, q: Ints) -> int:

@@ -7,7 +7,7 @@ from meshjig.cut.cycles import cycles
 from meshjig.cut.edge_nodes import edge_nodes
 from meshjig.cut.half_edges import make_ring, wire
 from meshjig.cut.islands import without_islands
-from meshjig.cut.labels import label_at, label_regions, regions
+from meshjig.cut.labels import joined_over_seams, label_at, label_regions, regions
 from meshjig.cut.places import corner_frames, half_edge_places, landing_weights
 from meshjig.cut.sheet import make_sheet
 from meshjig.cut.snap import snap
@@ -72,6 +72,7 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     sample[faces.region[::-1]] = faces.face[::-1]
     for r in np.flatnonzero(~known).tolist():
         label[r] = label_at(graph, sheet.U[sheet.F_uv[sample[r], 0]])
+    label_of_face = label[faces.region]
 
     vertex_of_place = np.full(len(graph.points), -1)
     vertex_of_place[landings.point[::-1]] = places.first_landing + np.arange(len(landings.point))[::-1]
@@ -80,8 +81,8 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
         V=V,
         F=faces.F,
         parent=origin.face[faces.face],
-        label=label[faces.region],
-        region=faces.region,
+        label=label_of_face,
+        region=joined_over_seams(faces.F, label_of_face, faces.region),
         vertex_face=vertex_face,
         vertex_bary=vertex_bary,
         point_vertex=vertex_of_place[graph.point],

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from meshjig.errors import OutputError
 
-__all__ = ["check_target", "replace_folder"]
+__all__ = ["check_target", "replace_folder", "write_text"]
 
 
 def check_target(target: Path | str, made_by_file: str = "report.json") -> None:
@@ -74,6 +74,25 @@ def replace_folder(target: Path | str, made_by_file: str = "report.json") -> Ite
             with suppress(OSError):
                 parent.rmdir()
         raise
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file that appears whole or not at all.
+
+    Raises
+    ------
+    OutputError
+        It can't be written.
+    """
+    scratch = path.with_name(f".{path.name}-{uuid.uuid4().hex[:12]}")
+    try:
+        scratch.write_text(text, encoding="utf-8")
+        os.replace(scratch, path)
+    except OSError as error:
+        with suppress(OSError):
+            scratch.unlink()
+        reason = (error.strerror or str(error)).lower()
+        raise OutputError(f"{path} can't be written ({reason})", hint="choose another file") from None
 
 
 _HINT = "choose another with -o, or make room there"

@@ -105,7 +105,7 @@ def _numbers(lines: list[str], start: str, kind: type) -> Floats:
     """Give the first three numbers on every line that starts so, (n, 3); what follows them is colour."""
     chosen = [line[2:] for line in lines if line.startswith(start)]
     rows = re.sub(r"/\d+", "", " ".join(chosen)).split()  # corner/picture: the corner matters here
-    table = np.array(rows, dtype=object).astype(kind).reshape(max(len(chosen), 1), -1)
+    table: Floats = np.array(rows, dtype=object).astype(kind).reshape(max(len(chosen), 1), -1)
     if table.shape[1] not in (3, 6):
         raise ValueError(f"{table.shape[1]} numbers on a line")
     return table[:, :3]

@@ -1,7 +1,21 @@
 """Planar tilings of charts, one file a family."""
 
-from meshjig.tiling.domain import chart_polygons
-from meshjig.tiling.grid import Grid, place_grid
-from meshjig.tiling.tiles import FAMILIES, tile_charts
+from meshjig.tiling.domain import chart_borders, chart_periods, chart_polygons
+from meshjig.tiling.families.square import squares
+from meshjig.tiling.fit import Fit
+from meshjig.tiling.placing import Placing
+from meshjig.tiling.shapes import Shapes
+from meshjig.tiling.tiles import tile_charts
+from meshjig.tiling.unit import Unit
 
-__all__ = ["FAMILIES", "Grid", "chart_polygons", "place_grid", "tile_charts"]
+__all__ = [
+    "Fit",
+    "Placing",
+    "Shapes",
+    "Unit",
+    "chart_borders",
+    "chart_periods",
+    "chart_polygons",
+    "squares",
+    "tile_charts",
+]

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-__all__ = ["all_turn_left", "corner_angles", "half_tube", "signed_areas"]
+from tests.meshes import cylinder
+
+__all__ = ["all_turn_left", "corner_angles", "half_tube", "signed_areas", "unrolled_tube"]
 
 
 def corner_angles(X, F):
@@ -30,3 +32,14 @@ def half_tube(n=24, radius=20.0, length=60.0):
     a = (np.arange(n)[:, None] * (n + 1) + np.arange(n)[None]).ravel()
     F = np.concatenate([np.stack([a, a + n + 1, a + n + 2], 1), np.stack([a, a + n + 2, a + 1], 1)])
     return V, F.astype(np.int64)
+
+
+def unrolled_tube(n=800):
+    """Unroll a tube of radius 25 mm and height 100 mm, cut open along one line: V, F, uv, F_uv."""
+    V, F = cylinder(n)
+    turn = np.arctan2(V[F][..., 1], V[F][..., 0])
+    turn = np.where(turn < turn.max(1, keepdims=True) - np.pi, turn + 2 * np.pi, turn)
+    places = np.stack([25 * turn, V[F][..., 2]], -1).reshape(-1, 2)
+    # so that both sides of the line are a period apart exactly
+    uv, F_uv = np.unique(np.round(places * 2**10) / 2**10, axis=0, return_inverse=True)
+    return V, F, uv, F_uv.reshape(-1, 3).astype(np.int64)

@@ -5,12 +5,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from meshjig.charts import build_atlas
+from meshjig.charts.carry import Carrier
 from meshjig.errors import ChartError, MeshjigError, OptionError
 from meshjig.measure import face_areas
 from meshjig.topology import compact, edges, is_disc
 from meshjig.types import Mesh
 from tests.charts.helpers import all_turn_left, corner_angles, signed_areas
 from tests.meshes import (
+    Shape,
+    closed_cylinder,
     creased_box,
     cylinder,
     disc,
@@ -30,11 +33,11 @@ from tests.strategies import meshes
 
 def assert_sound(atlas):
     """Every chart is a disc, the right way up, one to one, and apart from the others."""
-    F, G = atlas.mesh.F, atlas.F_uv
+    G = atlas.F_uv
     assert all_turn_left(atlas.uv, G)
     assert np.unique(G).tolist() == list(range(len(atlas.uv)))
     charts = [atlas.chart_of_face == c for c in range(atlas.n_charts)]
-    assert all(is_disc(F[c]) for c in charts)
+    assert all(is_disc(G[c]) for c in charts)
     shapes = [shapely.union_all(shapely.polygons(atlas.uv[G[c]])) for c in charts]
     for shape, c in zip(shapes, charts, strict=True):
         assert shape.area == pytest.approx(signed_areas(atlas.uv, G[c]).sum(), rel=1e-6)
@@ -42,30 +45,32 @@ def assert_sound(atlas):
         assert all(shape.distance(other) >= 5 - 1e-6 for other in shapes[:i])
 
 
-def assert_rows_differ_over_seams_only(atlas):
+def edges_cut_inside(atlas):
+    """Give the edges inside charts over which corners lie apart."""
     F, G = atlas.mesh.F.ravel(), atlas.F_uv.ravel()
     owner = np.full(len(atlas.uv), -1)
     owner[G] = F
     assert (owner[G] == F).all()
     e = edges(atlas.mesh.F)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
-    seam = atlas.chart_of_face[h // 3] != atlas.chart_of_face[e.twin[h] // 3]
+    apart = atlas.chart_of_face[h // 3] != atlas.chart_of_face[e.twin[h] // 3]
     far_end = G[np.where(e.twin[h] % 3 == 2, e.twin[h] - 2, e.twin[h] + 1)]
-    assert ((G[h] != far_end) == seam).all()
+    assert (G[h] != far_end)[apart].all()
+    return e.E[e.edge_of_halfedge[h[(G[h] != far_end) & ~apart]]]
 
 
 SHAPES = {
     "sphere of 100 faces": sphere(100),
     "sphere": sphere(2000),
-    "torus": torus(2000),
-    "genus 2": genus2(1500),
+    "torus": torus(1500),
+    "genus 2": genus2(800),
     "cylinder": cylinder(1000),
     "cup": open_cup(1000),
-    "box": creased_box(1200),
+    "box": creased_box(800),
     "box of 12 faces": creased_box(12),
-    "two components": two_components(1500),
-    "noisy torus": noisy(torus(2000), 0.3),
-    "noisy sphere, heavy": noisy(sphere(20000), 0.3),
+    "two components": two_components(1000),
+    "noisy torus": noisy(torus(1200), 0.3),
+    "noisy sphere, heavy": noisy(sphere(9500), 0.3),
     "one face": disc(6),
     "a sphere and crumbs": joined(
         sphere(500), moved(sphere(20, 1.0), [60, 0, 0]), moved(disc(6, 1.0), [70, 0, 0])
@@ -77,17 +82,17 @@ SHAPES = {
 def test_any_topology_gets_sound_charts(name):
     atlas = build_atlas(Mesh(*SHAPES[name]))
     assert_sound(atlas)
-    assert_rows_differ_over_seams_only(atlas)
+    edges_cut_inside(atlas)
     assert atlas.facts["flips"] == atlas.facts["overlaps"] == 0
     assert atlas.facts["n_charts"] == atlas.n_charts
 
 
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=5, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(meshes(faces=(100, 600), noise=0.4), st.sampled_from(["lscm", "arap", "slim", "xatlas"]))
 def test_any_mesh_gets_sound_charts_by_any_method(mesh, method):
     atlas = build_atlas(Mesh(*mesh), method=method)
     assert_sound(atlas)
-    assert_rows_differ_over_seams_only(atlas)
+    edges_cut_inside(atlas)
 
 
 def test_a_nearly_flat_chart_keeps_area_and_angles():
@@ -101,14 +106,14 @@ def test_a_nearly_flat_chart_keeps_area_and_angles():
 
 
 def test_most_of_a_heavy_mesh_is_hardly_stretched_and_few_seams_are_cut():
-    atlas = build_atlas(Mesh(*torus(20000)))
+    atlas = build_atlas(Mesh(*torus(9500)))
     assert atlas.facts["gate_share"] > 0.97
     assert atlas.n_charts <= 6
     assert atlas.facts["seam_over_sqrt_area"] < 8
 
 
 def test_equal_input_gives_equal_geometry():
-    first, second = (build_atlas(Mesh(*genus2(1500)), seed=5) for _ in range(2))
+    first, second = (build_atlas(Mesh(*torus(600)), seed=5) for _ in range(2))
     assert (first.uv == second.uv).all()
     assert (first.F_uv == second.F_uv).all()
 
@@ -120,7 +125,7 @@ def test_slivers_are_no_trouble():
 
 
 def test_faces_without_area_are_no_trouble():
-    V, F = sphere(2000)
+    V, F = sphere(1000)
     V[F[100, 0]] = V[F[100, 1]]
     V[F[700, 0]] = (V[F[700, 1]] + V[F[700, 2]]) / 2
     V[F[300:310].ravel()] = V[F[300, 0]]
@@ -130,7 +135,7 @@ def test_faces_without_area_are_no_trouble():
 
 
 def test_lengths_scale_with_the_model():
-    V, F = open_cup(1000)
+    V, F = noisy(open_cup(500), 0.1)  # without symmetry, which rounding would break
     small, large = build_atlas(Mesh(V, F)), build_atlas(Mesh(10 * V, F))
     assert signed_areas(large.uv, large.F_uv).sum() == pytest.approx(
         100 * signed_areas(small.uv, small.F_uv).sum(), rel=1e-3
@@ -141,6 +146,10 @@ def test_what_can_not_be_charted_is_refused_with_a_sentence():
     V, F = sphere(100)
     with pytest.raises(OptionError, match="unknown method"):
         build_atlas(Mesh(V, F), method="magic")
+    with pytest.raises(OptionError, match="uv needs the mesh as it was loaded"):
+        build_atlas(Mesh(V, F), method="uv")
+    with pytest.raises(OptionError, match="unknown name 'depth'"):
+        build_atlas(Mesh(V, F), xatlas_options={"depth": 1})
     with pytest.raises(ChartError, match="not manifold"):
         build_atlas(Mesh(V, np.concatenate([F, F[:1], F[:1]])))
     with pytest.raises(ChartError, match="empty"):
@@ -151,3 +160,54 @@ def test_what_can_not_be_charted_is_refused_with_a_sentence():
 
 def test_an_inward_mesh_is_charted_as_it_is():
     assert_sound(build_atlas(Mesh(*inside_out(sphere(500)))))
+
+
+def test_gluing_leaves_fewer_charts_and_the_facts_tell():
+    mesh = Mesh(*torus(9200))  # with a proxy
+    whole, glued = (build_atlas(mesh, method="slim", zipped=zipped) for zipped in (False, True))
+    assert len(edges_cut_inside(whole)) == 0 < len(edges_cut_inside(glued))
+    assert glued.n_charts <= 2 / 3 * whole.n_charts
+    facts = glued.facts
+    assert facts["n_charts_before_zip"] == whole.n_charts == glued.n_charts + facts["zipped"]
+    assert facts["seam_before_zip"] == pytest.approx(whole.facts["seam_over_sqrt_area"])
+    assert facts["seam_over_sqrt_area"] < facts["seam_before_zip"]
+    assert f"glued from {whole.n_charts}" in facts["reason"]
+
+
+def test_where_a_glued_chart_can_not_be_carried_its_parts_are(monkeypatch):
+    carry = Carrier.carry
+    leaf_sizes = []
+
+    def only_leaves(self, chart):
+        is_leaf = len(np.unique(self._light_leaf[chart.faces])) == 1
+        leaf_sizes.append(len(chart.faces))
+        return carry(self, chart) if is_leaf else None
+
+    monkeypatch.setattr(Carrier, "carry", only_leaves)
+    atlas = build_atlas(Mesh(*sphere(10000)), method="slim")
+    assert_sound(atlas)
+    assert len(edges_cut_inside(atlas)) == 0
+    assert atlas.facts["zipped"] == 0
+    assert len(leaf_sizes) > atlas.n_charts
+
+
+def test_auto_takes_rings_for_a_tube_and_says_so():
+    V, F = closed_cylinder(3000)
+    atlas = build_atlas(Mesh(V * [1, 1, 2], F))
+    assert atlas.facts["method"] == "periodic"
+    assert atlas.period is not None
+    assert atlas.facts["gate_share"] >= 0.97
+    assert atlas.facts["reason"].startswith("periodic: ")
+
+
+def test_auto_does_not_take_rings_for_what_is_no_tube():
+    assert build_atlas(Mesh(*torus(2000))).facts["method"] == "slim"
+
+
+def test_each_component_has_its_own_method_in_auto():
+    V, F = closed_cylinder(3000)
+    mesh = joined(Shape(V * [1, 1, 2], F), moved(torus(1500), [200, 0, 0]))
+    atlas = build_atlas(Mesh(*mesh))
+    assert atlas.facts["method"] == "periodic+slim"
+    assert (atlas.period > 0).any()
+    assert not (atlas.period > 0).all()

@@ -3,7 +3,7 @@ import pytest
 
 from meshjig.charts import build_atlas, curve, lift
 from meshjig.types import Atlas, Mesh
-from tests.charts.helpers import half_tube
+from tests.charts.helpers import half_tube, unrolled_tube
 from tests.meshes import disc, torus
 
 
@@ -82,3 +82,27 @@ def test_a_line_along_edges_and_through_corners_is_whole():
 def test_nothing_in_nothing_out(atlas):
     assert curve(atlas, 0, np.empty((0, 2))) == []
     assert curve(atlas, 0, np.array([[1e6, 1e6], [1e6, 2e6]])) == []
+
+
+def ring():
+    """Unroll a tube of radius 25 mm and height 100 mm as a ring."""
+    V, F, uv, G = unrolled_tube()
+    return Atlas(Mesh(V, F), uv, G, np.zeros(len(F), np.int64), period=np.array([np.ptp(uv[:, 0])]))
+
+
+def test_on_a_ring_points_whole_periods_apart_are_one():
+    tube = ring()
+    uv = np.random.default_rng(0).uniform([-70, -45], [70, 45], (50, 2))
+    _, _, here = lift(tube, 0, uv)
+    assert np.isfinite(here).all()
+    for periods in (-2, -1, 1, 3):
+        _, _, there = lift(tube, 0, uv + np.array([tube.period[0] * periods, 0]))
+        np.testing.assert_allclose(there, here, atol=1e-5)
+
+
+def test_a_line_twice_around_a_ring_is_one_curve_of_that_length():
+    tube = ring()
+    (around,) = curve(tube, 0, np.array([[-200.0, 10.0], [-200.0 + 2 * tube.period[0], 10.0]]))
+    assert np.linalg.norm(np.diff(around, axis=0), axis=1).sum() == pytest.approx(4 * np.pi * 25, rel=0.01)
+    np.testing.assert_allclose(around[0], around[-1], atol=1e-4)
+    np.testing.assert_allclose(around[:, 2], 10, atol=1e-4)

@@ -8,7 +8,7 @@ from scipy.spatial import Delaunay
 
 from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
 from meshjig.topology import edges
-from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Mesh, Outlines
+from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Knobs, Mesh, Outlines
 
 SIDE = 100.0
 
@@ -37,21 +37,26 @@ def sheet_atlas(n: int, uv: Floats | None = None) -> Atlas:
     return atlas(wavy(p), F, p if uv is None else uv)
 
 
-def tube_atlas(nx: int = 24, ny: int = 16, width: float = 120.0, height: float = 80.0) -> Atlas:
-    """A tube cut open along one line; u = 0 and u = width are the two sides of the seam."""
+def tube_atlas(
+    nx: int = 24, ny: int = 16, width: float = 120.0, height: float = 80.0, teeth: float = 0.0
+) -> Atlas:
+    """A tube cut open along one line, perhaps with teeth, mm: a periodic chart of its own width."""
     u, v = np.meshgrid(np.linspace(0, width, nx + 1), np.linspace(0, height, ny + 1))
-    uv = np.stack([u.ravel(), v.ravel()], 1)
-    angle = 2 * np.pi * np.arange(nx) / nx
-    ring = np.column_stack([np.cos(angle), np.sin(angle)]) * width / (2 * np.pi)
+    moved = teeth * (np.arange(ny + 1) % 2)[:, None]
+    uv = np.stack([(u + moved).ravel(), v.ravel()], 1)
+    angle = 2 * np.pi * np.arange(nx) / nx + 2 * np.pi * moved / width
+    ring = np.stack([np.cos(angle), np.sin(angle)], -1) * width / (2 * np.pi)
     heights = np.repeat(np.linspace(0, height, ny + 1), nx)
-    V = np.column_stack([np.tile(ring, (ny + 1, 1)), heights])
+    V = np.column_stack([ring.reshape(-1, 2), heights])
     j, i = (a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), indexing="ij"))
 
     def faces(stride: int, wrap: int) -> Ints:
         a, b = j * stride + i, j * stride + (i + 1) % wrap
         return np.concatenate([np.stack([a, b, b + stride], 1), np.stack([a, b + stride, a + stride], 1)])
 
-    return atlas(V, faces(nx, nx), uv, faces(nx + 1, nx + 1))
+    F = faces(nx, nx)
+    chart = np.zeros(len(F), np.int64)
+    return Atlas(Mesh(V, F), uv, faces(nx + 1, nx + 1), chart, period=np.array([width]))
 
 
 def two_charts(n: int, shift: tuple[float, float]) -> Atlas:
@@ -183,9 +188,13 @@ def assert_sound(a: Atlas, cut: CutMesh) -> None:
     same = np.zeros(cut.region.max() + 1, np.int64)
     same[cut.region] = cut.label
     np.testing.assert_array_equal(same[cut.region], cut.label)
+    here, there = h[inner] // 3, E.twin[inner] // 3
+    alike = (cut.label[here] == cut.label[there]) & (cut.label[here] >= 0)
+    np.testing.assert_array_equal(cut.region[here[alike]], cut.region[there[alike]])
+    outside = cut.region[cut.label < 0]
     chart = np.zeros_like(same)
-    chart[cut.region] = a.chart_of_face[cut.parent]
-    np.testing.assert_array_equal(chart[cut.region], a.chart_of_face[cut.parent])
+    chart[outside] = a.chart_of_face[cut.parent[cut.label < 0]]
+    np.testing.assert_array_equal(chart[outside], a.chart_of_face[cut.parent[cut.label < 0]])
     assert cut.facts["label_conflicts"] == 0
 
     # a cut is an edge of the mesh
@@ -203,3 +212,49 @@ def border_length(V: Floats, F: Ints) -> float:
 def shortest_edge(cut: CutMesh) -> float:
     E = edges(cut.F).E
     return float(np.linalg.norm(cut.V[E[:, 0]] - cut.V[E[:, 1]], axis=1).min())
+
+
+def ring_graph(n_around: int, rows: Floats, first: float, period: float) -> tuple[Outlines, Knobs]:
+    """Tiles around a periodic chart, with a knob to the left on every side that runs up.
+
+    Everything is drawn three times, a period apart. Column i and row j have the label i + j n.
+    """
+    n, width, shape = n_around, period / n_around, _knob()
+    points, S, L, R = [], [], [], []
+    knobs: dict[str, list] = {"neck": [], "head": [], "span": []}
+    for i in range(n):
+        points += [(first + i * width, y) for y in rows]
+    node = np.arange(n * len(rows)).reshape(n, len(rows))
+    for i in range(n):
+        for j in range(len(rows) - 1):
+            size = rows[j + 1] - rows[j]
+            ids = [node[i, j], *(len(points) + np.arange(len(shape) - 2)), node[i, j + 1]]
+            points += [(first + i * width - q * width, rows[j] + p * size) for p, q in shape[1:-1]]
+            knobs["neck"].append((ids[2], ids[-3]))
+            knobs["head"].append((ids[3], ids[-4]))
+            knobs["span"].append((len(S) + 2, len(S) + len(shape) - 3))
+            S += pairwise(ids)
+            L += [(i - 1) % n + j * n] * (len(shape) - 1)
+            R += [i + j * n] * (len(shape) - 1)
+    k = len(points)  # of a copy; the last column's rows lead on to the next copy's first
+    for i in range(n):
+        for j in range(len(rows)):
+            S.append((node[i, j], node[i + 1, j] if i + 1 < n else node[0, j] + k))
+            L.append(i + j * n if j < len(rows) - 1 else -1)
+            R.append(i + (j - 1) * n if j > 0 else -1)
+    P, E = np.array(points), np.array(S)
+    copies = np.vstack([P + np.array([c * period, 0]) for c in (-1, 0, 1)])
+    ends = np.vstack([E + c * k for c in range(3)])
+    whole = ends.max(1) < 3 * k
+    same_point, same_segment = np.tile(np.arange(k), 3), np.tile(np.arange(len(E)), 3)
+    outlines = Outlines(
+        copies, ends[whole], np.tile(L, 3)[whole], np.tile(R, 3)[whole], same_point, same_segment[whole]
+    )
+    return outlines, Knobs(*(np.array(knobs[key]) for key in ("neck", "head", "span")))
+
+
+def _knob() -> Floats:
+    """Give a side with a knob on its left, (k, 2): along the side, and out of it."""
+    right = np.array([(0.35, 0), (0.44, 0.03), (0.40, 0.15), (0.42, 0.25), (0.5, 0.28)])
+    left = [(1 - x, y) for x, y in right[-2::-1]]
+    return np.vstack([[(0, 0)], right, left, [(1, 0)]])

@@ -36,7 +36,7 @@ def folded(sheet, degrees):
 def cut_with_gap(sheet, outlines, method="stretch", pieces="label"):
     """Cut at zero width and with a gap; give the second cut, its pieces, and its specks."""
     cut = overlay(sheet, outlines)
-    names = cut.label if pieces == "label" else cut.region
+    names = cut.label if pieces == "label" else sheet.chart_of_face[cut.parent]
     piece = np.unique(names, return_inverse=True)[1]
     parts = overlay(sheet, gap_outlines(sheet, cut, outlines, piece, CLEARANCE, method))
     return (cut, piece, parts, *carry_pieces(sheet.mesh, cut, piece, parts))
@@ -72,7 +72,7 @@ def test_area_of_the_band_is_length_times_clearance():
 def test_gap_along_a_seam_is_straight_across_its_crease(degrees):
     sheet = folded(two_charts(20, (SIDE + 20, 7.0)), degrees)
     away = square(-50, -50, 1)
-    _, _, parts, piece, _ = cut_with_gap(sheet, loops(away, labels=[0], outside=[1]), pieces="region")
+    _, _, parts, piece, _ = cut_with_gap(sheet, loops(away, labels=[0], outside=[1]), pieces="chart")
     gap = outer_gap(parts.V, parts.F, piece, CLEARANCE)
     assert len(np.unique(piece[piece != GAP])) == 2
     assert gap["within_10pct"] > 0.99

@@ -142,6 +142,21 @@ def test_cuts_that_meet_over_a_seam_share_their_vertex():
     assert len(on_seam) == 17 + 10
 
 
+def test_what_has_no_label_stays_apart_over_a_seam():
+    away = loops(square(-50, -50, 1), labels=[1], outside=[-1])
+    cut = overlay(two_charts(4, (30, 0)), away)
+    assert (cut.label == -1).all()
+    assert cut.region.max() == 1
+
+
+def test_regions_of_one_label_that_do_not_meet_stay_apart():
+    parts = [square(20, 20, 5), square(80, 20, 5), square(50, 70, 9)]
+    cut = overlay(slit_sheet(20), loops(*parts, labels=[3, 3, 3], outside=[0, 0, 0]))
+    assert len(np.unique(cut.region[cut.label == 3])) == 3
+    across = overlay(slit_sheet(20), loops(square(50, 20, 9), labels=[3], outside=[0]))
+    assert len(np.unique(across.region[across.label == 3])) == 1
+
+
 @pytest.mark.parametrize("turn", [0.0, 0.3])
 def test_a_chart_with_a_slit(turn):
     a, g = slit_sheet(20), grid_graph(WIDE, WIDE, 2, turn)
@@ -192,7 +207,7 @@ def test_without_outlines_nothing_is_cut():
     )
     np.testing.assert_array_equal(cut.F, a.mesh.F)
     assert (cut.label == 0).all()
-    assert cut.region.max() == 1
+    assert cut.region.max() == 0  # one label on both sides of the seam is one region
     assert_sound(a, cut)
 
 

@@ -1,0 +1,92 @@
+"""The layout of cells: from a surface to pieces of equal area, with a knob on every border that has room."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+
+from meshjig.cells import CellMesh, KnobLayout, cell_atlas, grow_cells, knob_outlines
+from meshjig.cut import overlay
+from meshjig.layout import Layout
+from meshjig.measure import face_areas
+from meshjig.options import Options
+from meshjig.progress import Stages
+from meshjig.stitch import region_graph, stitch
+from meshjig.types import Atlas, Floats, Mesh
+
+__all__ = ["cell_layout"]
+
+log = logging.getLogger("meshjig")
+
+PASSES = 2  # the second makes cells larger or smaller by what their knobs take and give
+NEVER = 2.0  # a share of a border that no two pieces have: cells are whole as they are
+
+
+def cell_layout(surface: Mesh, options: Options, stages: Stages) -> Layout:
+    """Cut a surface into cells, put knobs on their borders, and cut again along these.
+
+    Parameters
+    ----------
+    surface : Mesh
+    options : Options
+    stages : Stages, hears of cells, knobs, cut and stitch
+    """
+    area = float(face_areas(surface.V, surface.F).sum())
+    n = options.pieces if options.piece_size is None else max(1, round(area / options.piece_size**2))
+    size = float(np.sqrt(area / n))
+    cells, atlas, knobs = _grown(surface, n, size, options, stages, None, None)
+    for _ in range(PASSES - 1):
+        wanted = _wanted_areas(cells, knobs)
+        cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
+    log.info("cells: %s; knobs: %s", cells.facts, knobs.facts)
+    with stages("cut"):
+        cut = overlay(atlas, knobs.outlines)
+    with stages("stitch"):
+        stitching = stitch(region_graph(cut), NEVER, area / n, smallest=options.min_piece)
+    atlas = Atlas(atlas.mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, atlas.facts | knobs.facts)
+    return Layout(atlas, knobs.outlines, knobs.knobs, cut, stitching, cells)
+
+
+def _grown(
+    surface: Mesh,
+    n: int,
+    size: float,
+    options: Options,
+    stages: Stages,
+    before: tuple[CellMesh, Floats] | None,
+    like: KnobLayout | None,
+) -> tuple[CellMesh, Atlas, KnobLayout]:
+    with stages("cells"):
+        start, targets = (None, None) if before is None else (before[0].seeds, before[1])
+        cells = grow_cells(
+            surface,
+            n,
+            seed=options.seed,
+            style=options.style,
+            crease_aware=options.crease_aware,
+            targets=targets,
+            start=start,
+        )
+        atlas = cell_atlas(cells)
+    with stages("knobs"):
+        knobs = knob_outlines(
+            atlas,
+            size=size,
+            knob_size=options.knob_size,
+            min_neck=options.min_neck + options.clearance,
+            random=options.random,
+            crease_aware=options.crease_aware,
+            seed=options.seed,
+            like=like,
+        )
+    return cells, atlas, knobs
+
+
+def _wanted_areas(cells: CellMesh, knobs: KnobLayout) -> Floats:
+    """Give the areas that cells need so that pieces come out equal, knobs counted."""
+    gained = np.zeros(cells.n_cells)
+    np.add.at(gained, knobs.moved[:, 0], -knobs.moved_mm2)
+    np.add.at(gained, knobs.moved[:, 1], knobs.moved_mm2)
+    mean = float(face_areas(cells.mesh.V, cells.mesh.F).sum()) / cells.n_cells
+    return np.maximum(mean - gained, 0.3 * mean)

@@ -1,0 +1,53 @@
+"""Every cell flattened to the plane, all side by side."""
+
+import numpy as np
+
+from meshjig.cells.arap import arap
+from meshjig.cells.cell_mesh import CellMesh
+from meshjig.cells.planar import Patches, folded, patches, projected, scaled, simple
+from meshjig.cells.rescue import rescued
+from meshjig.measure import face_areas
+from meshjig.types import Atlas, Floats
+
+__all__ = ["cell_atlas"]
+
+_APART = 0.6  # of the largest cell's extent
+
+
+def cell_atlas(cells: CellMesh) -> Atlas:
+    """Flatten every cell, all at once, and lay them side by side.
+
+    Cells are looked at along their mean normal, then brought near isometry; the few that this folds,
+    or whose border grows into itself, start from a round disc instead.
+
+    Parameters
+    ----------
+    cells : CellMesh
+
+    Returns
+    -------
+    Atlas
+        Chart i is cell i: no face mirrored, its area that of the cell in space, and as far from all
+        others as 0.6 of the largest chart's extent. facts: rescued (cells that folded at first), flips
+        (faces mirrored or flat in the end).
+    """
+    p = patches(cells.mesh.V, cells.mesh.F, cells.cell)
+    uv = scaled(p, arap(p, projected(p)))
+    bad = folded(p, uv) | ~simple(p, uv)
+    if bad.any():
+        kept, apart = rescued(p, bad)
+        uv[kept] = apart
+    facts = {"rescued": int(bad.sum()), "flips": int((face_areas(uv, p.F) <= 0).sum())}
+    return Atlas(cells.mesh, _side_by_side(p, uv), p.F, p.cell, facts)
+
+
+def _side_by_side(p: Patches, uv: Floats) -> Floats:
+    """Place cells on a square grid."""
+    low, high = np.full((p.n, 2), np.inf), np.full((p.n, 2), -np.inf)
+    np.minimum.at(low, p.of_vertex, uv)
+    np.maximum.at(high, p.of_vertex, uv)
+    pitch = float(np.linalg.norm(high - low, axis=1).max()) * (1 + _APART)
+    side = int(np.ceil(np.sqrt(p.n)))
+    cell = np.arange(p.n)
+    corner = np.stack([cell % side, cell // side], 1) * pitch
+    return uv + (corner - (low + high) / 2)[p.of_vertex]

@@ -1,0 +1,127 @@
+"""Mesh to cells: equal-area geodesic power cells with smooth borders, each of them a disc."""
+
+from typing import Literal
+
+import numpy as np
+
+from meshjig.cells.cell_mesh import CellMesh, Seeds
+from meshjig.cells.part import Parted
+from meshjig.cells.passes import MANY, Grown, evened, grown_again, grown_from, settled
+from meshjig.cells.quad import four_sided
+from meshjig.cells.refine import places, refine
+from meshjig.cells.spread import plant
+from meshjig.cells.surface import Surface, surface
+from meshjig.errors import CutError, OptionError
+from meshjig.measure import face_areas
+from meshjig.types import Floats, Ints, Mesh
+
+__all__ = ["Style", "grow_cells"]
+
+Style = Literal["cvt", "quad"]
+
+_EDGE = 0.2  # of the spacing: edges longer than that are split
+_BEND = 0.5  # spacings: what a radian of a crease adds to a way across it
+_OFF = 0.02  # of the number of cells wanted: farther off than that, it is worth another try
+_SMALLEST = 0.5  # of the mean area; so is a cell smaller than that
+_TRIES = 3
+_UNEVEN = 0.1  # of the seeds that a component deserves: a grid may miss them by that many
+
+
+def grow_cells(
+    mesh: Mesh,
+    n: int,
+    *,
+    seed: int = 0,
+    style: Style = "cvt",
+    crease_aware: bool = False,
+    targets: Floats | None = None,
+    start: Seeds | None = None,
+) -> CellMesh:
+    """Cut a surface into cells of equal area, each of them a disc, with smooth borders.
+
+    Cells are geodesic power cells: a point belongs to the seed to which its squared distance less the
+    seed's weight is least. Weights are such that every cell has the area asked for.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any genus, open or closed, any number of components; they share the cells by area.
+    n : int
+        Cells wanted. There may be a few more on thin limbs and around holes, where a cell of the
+        common area is no disc.
+    seed : int
+    style : str
+        Where seeds are: "cvt" spreads them evenly.
+    crease_aware : bool
+        Let borders keep off creases, or follow them.
+    targets : (N,) float64, optional
+        The areas of the cells relative to one another; with start.
+    start : Seeds, optional
+        Of an earlier result on the same mesh: its cells grow again, from the same places.
+
+    Returns
+    -------
+    CellMesh
+
+    Raises
+    ------
+    OptionError
+        n is less than 1, or targets don't fit start.
+    CutError
+        Some cells can't be made discs; the message says where the first of them is.
+    """
+    if n < 1:
+        raise OptionError(f"pieces: {n} is too few", hint="ask for at least 1")
+    if targets is not None and (start is None or len(targets) != start.n_cells):
+        raise OptionError("targets: there must be one for every cell of start", hint="give both")
+    spacing = float(np.sqrt(face_areas(mesh.V, mesh.F).sum() / n))
+    V, F, parent = refine(mesh.V, mesh.F, _EDGE * spacing)
+    s = surface(V, F, _BEND * spacing if crease_aware else 0.0)
+    if start is not None:
+        grown = grown_again(s, start, spacing, targets)
+    elif style == "quad":
+        grown = evened(s, grown_from(s, _on_all_components(s, four_sided(s, n), n, seed), spacing), spacing)
+    else:
+        grown = _of_about(s, n, spacing, seed)
+    _refuse_what_is_no_disc(grown.parted)
+    cut = grown.parted.cut
+    parent = parent[cut.parent]
+    face, bary = places(mesh.V, mesh.F, cut.V, cut.F, parent)
+    return CellMesh(Mesh(cut.V, cut.F), parent, face, bary, cut.cell, grown.seeds, grown.facts(s))
+
+
+def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:
+    """Grow cells from seeds spread evenly; from others where they don't come out well."""
+    tried: list[Grown] = []
+    wanted = n
+    for turn in range(_TRIES):
+        seeds = settled(s, plant(s, wanted, seed + turn), spacing)
+        grown = evened(s, grown_from(s, seeds, spacing), spacing)
+        tried.append(grown)
+        well = abs(grown.parted.n - n) <= _OFF * n and grown.areas.min() >= _SMALLEST
+        if well or len(grown.parted.pairs) > MANY * n:
+            break
+        if turn == _TRIES - 2:  # another draw does not help: so many fewer seeds
+            wanted = max(n - min(abs(g.parted.n - n) for g in tried), 1)
+    return min(tried, key=lambda g: (g.n_bad, max(abs(g.parted.n - n) - _OFF * n, 0.0), -g.areas.min()))
+
+
+def _on_all_components(s: Surface, seeds: Ints, n: int, seed: int) -> Ints:
+    """Put seeds that are spread evenly on components with too few or too many."""
+    count, spread = np.bincount(s.component[seeds], minlength=len(s.closed)), plant(s, n, seed)
+    share = np.bincount(s.component[spread], minlength=len(s.closed))
+    off = np.abs(count - share) > _UNEVEN * share
+    return np.union1d(seeds[~off[s.component[seeds]]], spread[off[s.component[spread]]])
+
+
+def _refuse_what_is_no_disc(parted: Parted) -> None:
+    bad = np.flatnonzero(~parted.good)
+    if not len(bad):
+        return
+    used = np.unique(parted.cut.F[parted.cut.cell == bad[0]])
+    where = ", ".join(f"{x:.0f}" for x in parted.cut.V[used].mean(0)) if len(used) else "nowhere"
+    raise CutError(
+        f"{len(bad)} of {parted.n} pieces would be rings or worse, the first around ({where})",
+        hint="ask for more pieces",
+        ids=bad.tolist(),
+    )

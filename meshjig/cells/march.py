@@ -1,0 +1,167 @@
+"""Marching triangles with many labels: borders between cells, cut through the faces of a mesh."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.cells.power import Field
+from meshjig.cells.slide import straightened
+from meshjig.cells.surface import Surface
+from meshjig.topology import Edges, edges
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["Marched", "march"]
+
+NEAR = 0.06  # of an edge: a border that passes a vertex closer than this goes through it
+_STEEP = 0.7  # the same for a vertex on a crease that borders should follow
+_INSIDE = 0.15  # the least barycentric coordinate of a point where three cells meet
+_ROUNDS = 8
+
+
+class Marched(NamedTuple):
+    """A mesh cut along the borders of cells; its first vertices are those of the mesh."""
+
+    V: Floats  # (n', 3)
+    F: Ints  # (m', 3)
+    parent: Ints  # (m',), the face that a face was cut from
+    cell: Ints  # (m',)
+    e: Edges  # of F
+
+
+def march(s: Surface, owner: Ints, field: Field) -> Marched:
+    """Cut faces where the values of two cells are equal, between vertices that the cells own.
+
+    Two cells meet along a straight line in a face, three at a point. Where the line would pass close to
+    a vertex it goes through the vertex, so that no face becomes a sliver.
+
+    Parameters
+    ----------
+    s : Surface
+    owner : (n,) int64
+    field : Field
+
+    Returns
+    -------
+    Marched
+    """
+    V, F, e = s.V, s.F, s.e
+    crossing, along = _crossings(e, owner, field)
+    free = _snapped(F, e, np.where(s.steep, _STEEP, NEAR), crossing, along)
+    for _ in range(_ROUNDS):
+        cut = _cut(V, F, e, owner, free, field, along)
+        pinched = _pinched(cut)
+        bad = np.flatnonzero(pinched[: len(V)] & free)
+        if not len(bad):
+            break
+        free[bad] = False
+    a, b = e.E.T
+    ends = e.E[~free[a] & ~free[b] & (owner[a] != owner[b])]
+    point = len(V) + np.arange(len(ends))
+    return cut._replace(V=straightened(cut.V, cut.e, cut.cell, point, ends, NEAR))
+
+
+def _crossings(e: Edges, owner: Ints, field: Field) -> tuple[Ints, Floats]:
+    """Give the edges whose ends belong to different cells, and where along every edge (0 to 1) it crosses."""
+    crossing = np.flatnonzero(owner[e.E[:, 0]] != owner[e.E[:, 1]])
+    u, v = e.E[crossing].T
+    a, b = owner[u], owner[v]
+    value = np.stack([field.at(u, b), field.at(u, a), field.at(v, a), field.at(v, b)])
+    value[:, ~np.isfinite(value).all(0)] = 0.0
+    du, dv = value[0] - value[1], value[2] - value[3]
+    known = (du >= 0) & (dv >= 0) & (du + dv > 0)
+    along = np.full(len(e.E), 0.5)
+    along[crossing[known]] = du[known] / (du[known] + dv[known])
+    return crossing, along
+
+
+def _snapped(F: Ints, e: Edges, near: Floats, crossing: Ints, along: Floats) -> Bools:
+    """Mark vertices that the border goes through, (n,): never all three of a face."""
+    ends, t = e.E[crossing].ravel(), np.stack([along[crossing], 1 - along[crossing]], 1).ravel()
+    closest = np.full(len(near), np.inf)
+    np.minimum.at(closest, ends, t)
+    free = closest < near
+    for _ in range(_ROUNDS):
+        full = np.flatnonzero(free[F].all(1))
+        if not len(full):
+            return free
+        free[F[full, closest[F[full]].argmax(1)]] = False
+    free[F[free[F].all(1)].ravel()] = False
+    return free
+
+
+def _cut(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Field, along: Floats) -> Marched:
+    """Split every face by the labels of its corners; free corners have none."""
+    a, b = e.E.T
+    crossed = ~free[a] & ~free[b] & (owner[a] != owner[b])
+    point = np.full(len(e.E), -1)
+    point[crossed] = len(V) + np.arange(crossed.sum())
+    t = np.clip(along[crossed], NEAR, 1 - NEAR)[:, None]
+    on_edge = V[a[crossed]] * (1 - t) + V[b[crossed]] * t
+    middle = point[e.edge_of_halfedge].reshape(-1, 3)
+    n_cut = (middle >= 0).sum(1)
+    three = np.flatnonzero(n_cut == 3)
+    inner = np.einsum("kj,kjd->kd", _meeting(field, F[three], owner[F[three]]), V[F[three]])
+    V = np.concatenate([V, on_edge, inner])
+    faces, parents, labels = [], [], []
+
+    def add(parent: Ints, label: Ints, *corners: Ints) -> None:
+        faces.append(np.stack(corners, 1))
+        parents.append(parent)
+        labels.append(label)
+
+    whole = np.flatnonzero(n_cut == 0)
+    add(whole, _label_of(owner[F[whole]], free[F[whole]]), *F[whole].T)
+    one = np.flatnonzero(n_cut == 1)  # from a free corner to the side opposite
+    (p, q, r), (m, _, _) = _turned(F[one], middle[one], (middle[one] >= 0).argmax(1))
+    add(one, owner[p], p, m, r)
+    add(one, owner[q], m, q, r)
+    two = np.flatnonzero(n_cut == 2)  # one corner is cut off
+    (p, q, r), (_, m, k) = _turned(F[two], middle[two], (middle[two] < 0).argmax(1))
+    add(two, owner[r], m, r, k)
+    short = np.linalg.norm(V[p] - V[m], axis=1) <= np.linalg.norm(V[q] - V[k], axis=1)
+    add(two, owner[p], p, q, np.where(short, m, k))
+    add(two, owner[p], np.where(short, p, q), m, k)
+    centre = len(V) - len(three) + np.arange(len(three))
+    for k in range(3):
+        corner, after, before = F[three, k], middle[three, k], middle[three, k - 1]
+        add(three, owner[corner], corner, after, centre)
+        add(three, owner[corner], corner, centre, before)
+    G = np.concatenate(faces)
+    return Marched(V, G, np.concatenate(parents), np.concatenate(labels), edges(G))
+
+
+def _label_of(owner: Ints, free: Bools) -> Ints:
+    """Give the label of the first corner that is not free."""
+    return np.take_along_axis(owner, free.argmin(1)[:, None], 1)[:, 0]
+
+
+def _turned(F: Ints, middle: Ints, first: Ints) -> tuple[Ints, Ints]:
+    """Turn faces so that a given side comes first; their corners and middles, (3, k) each."""
+    turn = (np.arange(3) + first[:, None]) % 3
+    return np.take_along_axis(F, turn, 1).T, np.take_along_axis(middle, turn, 1).T
+
+
+def _meeting(field: Field, F: Ints, owner: Ints) -> Floats:
+    """Give the place in a face where the three cells of its corners have equal values, (k, 3)."""
+    value = np.stack([np.stack([field.at(F[:, c], owner[:, k]) for c in range(3)], 1) for k in range(3)], 1)
+    known = np.isfinite(value).all((1, 2))
+    value[~known] = 0.0
+    system = np.stack([value[:, 0] - value[:, 1], value[:, 0] - value[:, 2], np.ones((len(F), 3))], 1)
+    size = np.abs(system[:, :2]).max((1, 2), initial=0.0)
+    known &= np.abs(np.linalg.det(system)) > 1e-9 * size**2
+    system[~known] = np.eye(3)
+    bary = np.linalg.solve(system, np.broadcast_to([[0.0], [0.0], [1.0]], (len(F), 3, 1)))[:, :, 0]
+    bary[~known] = 1 / 3
+    bary = np.maximum(bary, _INSIDE)
+    return bary / bary.sum(1, keepdims=True)
+
+
+def _pinched(cut: Marched) -> Bools:
+    """Mark vertices at which the faces of one cell meet in more than one fan, (n,)."""
+    twin, n = cut.e.twin, int(cut.cell.max(initial=0)) + 1
+    h = np.arange(len(twin))
+    border = np.flatnonzero((twin == h) | (cut.cell[h // 3] != cut.cell[twin // 3]))
+    found, count = np.unique(cut.F.ravel()[border] * np.int64(n) + cut.cell[border // 3], return_counts=True)
+    out = np.zeros(len(cut.V), bool)
+    out[found[count > 1] // n] = True
+    return out

@@ -1,0 +1,51 @@
+"""Cells that rigid flattening folds: flattened so that no face is ever mirrored."""
+
+import numpy as np
+
+from meshjig.cells.planar import Patches, folded, scaled, simple, subset
+from meshjig.cells.tutte import tutte
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["rescued"]
+
+_ITERATIONS = (25, 5, 1)  # fewer where the border of a cell would grow into itself
+
+
+def rescued(p: Patches, chosen: Bools) -> tuple[Ints, Floats]:
+    """Flatten some of the cells, near to isometry and without folds.
+
+    Parameters
+    ----------
+    p : Patches, discs
+    chosen : (n,) bool
+
+    Returns
+    -------
+    vertex : (v,) int64, the vertices of these cells
+    uv : (v, 2) float64, mm
+
+    References
+    ----------
+    Rabinovich et al., "Scalable Locally Injective Mappings", 2017.
+    """
+    q, kept = subset(p, chosen)
+    start = tutte(q)
+    uv = start.copy()
+    for cell in range(q.n):
+        one, inside = subset(q, np.arange(q.n) == cell)
+        for iterations in _ITERATIONS:
+            found = scaled(one, _slim(one, start[inside], iterations))
+            if not folded(one, found)[0] and simple(one, found)[0]:
+                uv[inside] = found
+                break
+    return kept, uv
+
+
+def _slim(p: Patches, uv: Floats, iterations: int) -> Floats:
+    import igl
+
+    none, nowhere = np.zeros(0, np.int32), np.asfortranarray(np.zeros((0, 2)))
+    V, F = np.asfortranarray(p.V), np.asfortranarray(p.F.astype(np.int32))
+    data = igl.slim_precompute(V, F, np.asfortranarray(uv), igl.SYMMETRIC_DIRICHLET, none, nowhere, 0.0)
+    out = np.array(igl.slim_solve(data, iterations), np.float64, order="C")
+    return out if np.isfinite(out).all() else uv

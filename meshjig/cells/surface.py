@@ -1,0 +1,70 @@
+"""A surface with all that is measured on it once, for cells to grow on."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from meshjig.cells.distances import surface_graph
+from meshjig.measure import area_vectors, face_areas, sums, unit
+from meshjig.topology import Edges, edges
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["Surface", "surface"]
+
+
+_SHARP_EDGES = 6  # at a vertex, at most
+_STRAIGHT = -np.cos(np.radians(40))  # between two edges of a crease: less is nearly straight on
+_SHARP = np.cos(np.radians(40))  # between the normals of two faces: less is a crease
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A mesh, its edges, areas, distances and components."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    e: Edges
+    area: Floats  # (n,), mm2, of each vertex
+    graph: Any  # from surface_graph
+    steep: Bools  # (n,), on a crease that borders should follow
+    component: Ints  # (n,)
+    component_area: Floats  # (c,), mm2
+    closed: Bools  # (c,)
+
+    def targets(self, seeds: Ints, relative: Floats) -> Floats:
+        """Share each component's area among its seeds, in proportion to relative areas; (N,), mm2."""
+        group = self.component[seeds]
+        total = sums(group, relative, len(self.component_area))
+        scaled: Floats = relative * (self.component_area / np.maximum(total, 1e-300))[group]
+        return scaled
+
+
+def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
+    """Measure a mesh, V (n, 3) in mm and F (m, 3), without unused vertices; bend as in surface_graph."""
+    from scipy.sparse.csgraph import connected_components
+
+    e = edges(F)
+    graph = surface_graph(V, F, e, bend)
+    area = sums(F.ravel(), np.repeat(face_areas(V, F) / 3, 3), len(V))
+    k, component = connected_components(graph, directed=False)
+    closed = ~np.isin(np.arange(k), component[e.E[e.n_faces == 1]])
+    steep = _steep(V, F, e) if bend else np.zeros(len(V), bool)
+    return Surface(V, F, e, area, graph, steep, component.astype(np.int64), sums(component, area, k), closed)
+
+
+def _steep(V: Floats, F: Ints, e: Edges) -> Bools:
+    """Mark the vertices at which a crease goes straight on, (n,)."""
+    normal = unit(area_vectors(V, F))
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    sharp = np.einsum("ij,ij->i", normal[h // 3], normal[e.twin[h] // 3]) < _SHARP
+    ends = e.E[e.edge_of_halfedge[h[sharp]]]
+    both = np.concatenate([ends, ends[:, ::-1]])
+    both = both[np.argsort(both[:, 0], kind="stable")]
+    way = unit(V[both[:, 1]] - V[both[:, 0]])
+    out = np.zeros(len(V), bool)
+    for k in range(1, _SHARP_EDGES):  # edges k places apart in the list of those at a vertex
+        at = both[k:, 0] == both[:-k, 0]
+        on = np.einsum("ij,ij->i", way[k:], way[:-k]) < _STRAIGHT
+        out[both[k:, 0][at & on]] = True
+    return out

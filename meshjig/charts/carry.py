@@ -1,0 +1,124 @@
+"""Carry flattened charts from a proxy to the full mesh, cuts inside them too."""
+
+import numpy as np
+
+from meshjig.charts.chart import Chart
+from meshjig.charts.cuts import chains, cut_faces
+from meshjig.charts.flatten import border_is_simple, is_unflipped, unit_stretch
+from meshjig.charts.part import part
+from meshjig.charts.transfer import transfer_uv
+from meshjig.charts.untangle import untangle
+from meshjig.topology import Edges, compact, edges, is_disc
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["Carrier"]
+
+
+class Carrier:
+    """Takes charts of a proxy over to a mesh whose faces know the proxy's leaves.
+
+    Leaves are regions without cuts inside; a chart is made of whole leaves, glued along parts of
+    the seams between them. So a face's leaf tells on which side of a cut it is.
+
+    Parameters
+    ----------
+    V, F : (n, 3) float64, mm, and (m, 3) int64, the mesh, one component
+    leaf : (m,) int64, 0 to k - 1
+    W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
+    light_leaf : (m',) int64, 0 to k - 1
+    """
+
+    def __init__(self, V: Floats, F: Ints, leaf: Ints, W: Floats, G: Ints, light_leaf: Ints) -> None:
+        self._V, self._F, self.leaf = V, F, leaf
+        self._W, self._G, self._light_leaf = W, G, light_leaf
+        self._e, self._light = edges(F), edges(G)
+        self._sides, self._light_sides = _sides(self._e, leaf), _sides(self._light, light_leaf)
+        rim = np.unique(self._e.E[self._e.n_faces == 1])
+        rows = np.flatnonzero(self._sides[:, 0] != self._sides[:, 1])
+        self._chains = [rows[chain] for chain in chains(self._e.E[rows], rim)]
+
+    def carry(self, chart: Chart) -> Chart | None:
+        """Flatten a chart's part of the mesh as the proxy's is; None where that makes no sound chart.
+
+        Parameters
+        ----------
+        chart : Chart, of the proxy
+        """
+        leaves = np.unique(self._light_leaf[chart.faces])
+        faces = np.flatnonzero(np.isin(self.leaf, leaves))
+        corners = cut_faces(self._e, self._cut_around(leaves, chart), faces)
+        if not is_disc(corners):
+            return None
+        X = np.empty((int(corners.max()) + 1, 3))
+        X[corners] = self._V[self._F[faces]]
+        uv = part(X, corners, untangle(X, corners, self._first_guess(chart, faces, corners)))
+        if not (is_unflipped(uv, corners) and border_is_simple(uv, corners)):
+            return None
+        return Chart(faces, unit_stretch(X, corners, uv), corners)
+
+    def _cut_around(self, leaves: Ints, chart: Chart) -> Bools:
+        """Tell which edges are cut: all between leaves but those that are closed inside a chart, (e,)."""
+        cut = self._sides[:, 0] != self._sides[:, 1]
+        for chain in self._chains:
+            pair = self._sides[chain[0]]
+            if np.isin(pair, leaves).all():
+                cut[self._glued(chain, pair, chart)] = False
+        return cut
+
+    def _glued(self, chain: Ints, pair: Ints, chart: Chart) -> Ints:
+        """Give the stretch of a seam that is closed, going by the seam's nearest place on the proxy."""
+        from scipy.spatial import cKDTree
+
+        rows = np.flatnonzero((self._light_sides == pair).all(1))
+        if not len(rows):
+            return chain[:0]
+        corners = np.full((len(self._G), 3), -1)
+        corners[chart.faces] = chart.corners
+        closed = _closed(self._light, corners)[rows]
+        _, near = cKDTree(self._W[self._light.E[rows]].mean(1)).query(self._V[self._e.E[chain]].mean(1))
+        length = np.linalg.norm(np.diff(self._V[self._e.E[chain]], axis=1)[:, 0], axis=1)
+        return chain[_best_stretch(np.where(closed[near], length, -length))]
+
+    def _first_guess(self, chart: Chart, faces: Ints, corners: Ints) -> Floats:
+        """Place corners where their leaf says, and corners of several leaves in the middle."""
+        n = int(corners.max()) + 1
+        total, count = np.zeros((n, 2)), np.zeros(n)
+        for leaf in np.unique(self._light_leaf[chart.faces]):
+            light = self._light_leaf[chart.faces] == leaf
+            own = self.leaf[faces] == leaf
+            H, light_kept = compact(self._G[chart.faces[light]])
+            uv = np.empty((len(light_kept), 2))
+            uv[H] = chart.uv[chart.corners[light]]
+            G, kept = compact(self._F[faces[own]])
+            row = np.empty(len(kept), np.int64)
+            row[G] = corners[own]
+            total[row] += transfer_uv(self._V[kept], self._W[light_kept], H, uv)
+            count[row] += 1
+        return total / count[:, None]
+
+
+def _sides(e: Edges, label: Ints) -> Ints:
+    """Give the labels on both sides of every edge, lower first; twice the same on a border, (e, 2)."""
+    sides = np.empty((len(e.E), 2), np.int64)
+    h = np.arange(len(e.twin))
+    sides[e.edge_of_halfedge[h]] = np.sort(np.stack([label[h // 3], label[e.twin[h] // 3]], 1), axis=1)
+    return sides
+
+
+def _closed(e: Edges, corners: Ints) -> Bools:
+    """Tell over which edges corners hang together."""
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    t = e.twin[h]
+    G = corners.ravel()
+    after = np.roll(corners, -1, 1).ravel()
+    closed = np.zeros(len(e.E), bool)
+    closed[e.edge_of_halfedge[h]] = (G[h] == after[t]) & (after[h] == G[t]) & (G[h] >= 0)
+    return closed
+
+
+def _best_stretch(gain: Floats) -> slice:
+    """Give the stretch with the largest sum; empty where no sum is above 0."""
+    sums = np.append(0, np.cumsum(gain))
+    low = np.minimum.accumulate(sums)
+    end = int((sums - low).argmax())
+    return slice(int(sums[: end + 1].argmin()), end)

@@ -1,0 +1,84 @@
+"""The order in which to put a puzzle together."""
+
+import heapq
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from meshjig.output.piece import Piece
+from meshjig.output.together import together
+from meshjig.output.view import guess_up
+
+__all__ = ["Assembly", "assembly_of", "assembly_order"]
+
+_MOST_STEPS = 30  # so many pictures a person follows
+
+
+class Assembly(NamedTuple):
+    """Steps of putting pieces together, each a list of pieces counted from 1."""
+
+    steps: list[list[int]]
+    verified: bool  # somebody made sure that every piece can get to its place
+
+
+def assembly_of(pieces: Sequence[Piece], report: Mapping[str, Any]) -> Assembly:
+    """Give the order that a report holds, or make one of its neighbours.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    report : mapping
+        ``assembly``, if there, is a mapping with ``steps`` and ``verified``; else ``pieces`` are asked
+        for their ``neighbours``.
+
+    Returns
+    -------
+    Assembly
+    """
+    planned = report.get("assembly")
+    if planned:
+        steps = [[int(piece) for piece in step] for step in planned["steps"]]
+        return Assembly(steps, bool(planned.get("verified", False)))
+    listed = [entry["neighbours"] for entry in report.get("pieces", ())]
+    neighbours = listed if len(listed) == len(pieces) else [[] for _ in pieces]
+    return Assembly(assembly_order(pieces, neighbours), False)
+
+
+def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Order pieces from the bottom up, each on what is there already.
+
+    The lowest piece is first; next is always the lowest of those that touch a piece placed before. Where
+    none does, the lowest that is left begins anew. Nothing makes sure that a piece can get to its place.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    neighbours : for each piece, the pieces it borders on, counted from 1
+
+    Returns
+    -------
+    list of list of int
+        Steps of as many pieces each, at most thirty steps; pieces are counted from 1.
+    """
+    if not pieces:
+        return []
+    V, F, piece_of_vertex, _ = together(pieces)
+    height = np.bincount(piece_of_vertex, V @ guess_up(V, F)) / np.bincount(piece_of_vertex)
+    lowest_first = np.argsort(height, kind="stable").tolist()
+    row: list[int] = []
+    waiting: list[tuple[float, int]] = []
+    known = np.zeros(len(pieces), bool)
+    for start in lowest_first:
+        if not known[start]:
+            known[start] = True
+            waiting.append((height[start], start))
+        while waiting:
+            _, piece = heapq.heappop(waiting)
+            row.append(piece + 1)
+            for near in neighbours[piece]:
+                if not known[near - 1]:
+                    known[near - 1] = True
+                    heapq.heappush(waiting, (height[near - 1], near - 1))
+    a_step = -(-len(row) // _MOST_STEPS)
+    return [row[k : k + a_step] for k in range(0, len(row), a_step)]

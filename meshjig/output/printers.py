@@ -1,0 +1,69 @@
+"""Printers by name, and how large their plates are."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from meshjig.errors import OptionError
+
+__all__ = ["PRINTERS", "Plate", "parse_plate"]
+
+
+class Plate(NamedTuple):
+    """What a printer can hold, mm."""
+
+    width: float
+    depth: float
+    height: float = float("inf")
+
+    def __str__(self) -> str:
+        known = [f"{side:g}" for side in self if side < float("inf")]
+        return f"{' x '.join(known)} mm"
+
+
+PRINTERS = {
+    "bambu-a1": Plate(256, 256, 256),
+    "bambu-a1-mini": Plate(180, 180, 180),
+    "ender-3": Plate(220, 220, 250),
+    "formlabs-3": Plate(145, 145, 185),
+    "formlabs-4": Plate(200, 125, 210),
+    "prusa-mini": Plate(180, 180, 180),
+    "prusa-mk3": Plate(250, 210, 210),
+    "prusa-mk4": Plate(250, 210, 220),
+    "prusa-xl": Plate(360, 360, 360),
+}
+
+_SIZE = re.compile(r"(\d+\.?\d*)x(\d+\.?\d*)(?:x(\d+\.?\d*))?")
+
+
+def parse_plate(text: str) -> Plate:
+    """Read the size of a plate.
+
+    Parameters
+    ----------
+    text : str
+        A printer of `PRINTERS`, or WIDTHxDEPTH or WIDTHxDEPTHxHEIGHT in mm.
+
+    Returns
+    -------
+    Plate
+        Its height is infinite where none was given.
+
+    Raises
+    ------
+    OptionError
+        It is neither, or a side is zero.
+    """
+    name = text.strip().lower()
+    if name in PRINTERS:
+        return PRINTERS[name]
+    size = _SIZE.fullmatch(name.replace(" ", ""))
+    if size is None:
+        raise OptionError(
+            f"plate: {text!r} is not known", hint=f"give WIDTHxDEPTH in mm, or one of {', '.join(PRINTERS)}"
+        )
+    plate = Plate(*(float(side) for side in size.groups() if side))
+    if min(plate) <= 0:
+        raise OptionError(f"plate: {text!r} has no area", hint="give WIDTHxDEPTH in mm")
+    return plate

@@ -1,0 +1,53 @@
+"""Whether pieces as small as asked for can be made at all."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.errors import OptionError
+from meshjig.options import Options
+from meshjig.tiling.outline import edge_ends
+from meshjig.tiling.registry import get_family
+
+__all__ = ["refuse_too_small_pieces"]
+
+FEWEST = 2  # pieces that a puzzle can have
+CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
+
+
+def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:
+    """Refuse pieces whose knobs the clearance would cut off.
+
+    Parameters
+    ----------
+    size : float, mm, edge of a square as large as a piece
+    area : float, of the surface, mm2
+    options : Options
+
+    Raises
+    ------
+    OptionError
+        The sentence says what would do.
+    """
+    neck = CELL_NECK if options.layout == "cells" else _neck_of_tiles(options)
+    if neck is None:
+        return
+    smallest = (2 * options.clearance + 0.1) / neck  # half of the neck is left
+    if size >= smallest:
+        return
+    most, widest = int(area / smallest**2), max(neck * size / 2 - 0.05, 0.0)
+    larger = f"pieces of at least {smallest:.2g} mm" if options.piece_size else f"at most {most} pieces"
+    raise OptionError(
+        f"pieces of {size:.2g} mm have knobs with a neck of {neck * size:.2g} mm, "
+        f"too narrow for a clearance of {options.clearance:g} mm",
+        hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
+    )
+
+
+def _neck_of_tiles(options: Options) -> float | None:
+    """Give the width of a tile's neck, in sizes of the tile; None where tiles interlock by their shape."""
+    unit = get_family(options.tile, options.seed)
+    if unit.template is None:
+        return None
+    ends = edge_ends(unit)
+    return unit.template(8).neck_width * float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min())

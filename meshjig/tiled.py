@@ -1,0 +1,127 @@
+"""The layout of planar tiles: from an atlas to a surface cut into pieces."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+
+from meshjig.cut import overlay
+from meshjig.layout import Layout
+from meshjig.measure import face_areas
+from meshjig.options import Options
+from meshjig.progress import Stages
+from meshjig.sizing import TileChoice, choose_tiles
+from meshjig.stitch import region_graph, stitch
+from meshjig.tiling import Unit, tile_charts
+from meshjig.tiling.families.polyomino import SQUARES
+from meshjig.tiling.registry import get_family
+from meshjig.types import Atlas, Ints
+from meshjig.unique import LEAST_DIFFERENCE, clashes
+
+__all__ = ["tile_layout"]
+
+log = logging.getLogger("meshjig")
+
+WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
+TRIES = 3
+REDRAWN = 12  # times at most that knobs are drawn anew to make borders unlike each other
+DIFFERENT = 0.5  # how random tiles are at least when each has to be unique
+
+
+def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
+    """Tile, cut and stitch; again with other tiles when the number of pieces is too far off.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    options : Options
+    stages : Stages, hears of tiling, cut and stitch
+    """
+    unit = get_family(options.tile, options.seed, _columns(atlas, options))
+    wanted, angle = options.pieces, options.angle
+    tried: list[Layout] = []
+    chosen: list[TileChoice] = []
+    least_border = options.min_neck + options.clearance
+    for _ in range(TRIES):
+        with stages("tiling"):
+            choice = choose_tiles(
+                atlas, wanted, options.stitch, least_border, options.piece_size, unit=unit, angle=angle
+            )
+        layout = _cut(atlas, unit, choice, least_border, options, stages)
+        tried.append(layout)
+        chosen.append(choice)
+        n = layout.stitching.n_pieces
+        log.info("tiles of %.2f mm give %d pieces (%d expected)", choice.size, n, choice.expected)
+        if options.piece_size or abs(n - options.pieces) <= WITHIN * options.pieces:
+            break
+        wanted = max(1, round(wanted * options.pieces / n))
+    best = int(np.argmin([abs(layout.stitching.n_pieces - options.pieces) for layout in tried]))
+    if not options.unique:
+        return tried[best]
+    return _without_clashes(tried[best], atlas, unit, chosen[best], least_border, options, stages)
+
+
+def _cut(
+    atlas: Atlas,
+    unit: Unit,
+    choice: TileChoice,
+    least_border: float,
+    options: Options,
+    stages: Stages,
+    turns: Ints | None = None,
+) -> Layout:
+    with stages("tiling"):
+        outlines, knobs = tile_charts(
+            atlas,
+            choice.size,
+            unit=unit,
+            placings=choice.placings,
+            min_neck=least_border,
+            random=max(options.random, DIFFERENT if options.unique else 0.0),
+            random_style=options.random_style,
+            seed=options.seed,
+            turns=turns,
+        )
+    with stages("cut"):
+        cut = overlay(atlas, outlines)
+    with stages("stitch"):
+        graph = region_graph(cut)
+        stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece)
+    return Layout(atlas, outlines, knobs, cut, stitching)
+
+
+def _without_clashes(
+    layout: Layout,
+    atlas: Atlas,
+    unit: Unit,
+    choice: TileChoice,
+    least_border: float,
+    options: Options,
+    stages: Stages,
+) -> Layout:
+    """Draw knobs anew for as long as borders look alike."""
+    turns = np.zeros(0, np.int64)
+    best, fewest = layout, np.inf
+    for _ in range(REDRAWN):
+        with stages("unique"):
+            edges, facts = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))
+        log.info("unique: %s", facts)
+        if facts["congruent_borders"] < fewest:
+            best, fewest = layout, facts["congruent_borders"]
+        if not len(edges):
+            break
+        turns = np.concatenate([turns, np.zeros(max(0, int(edges.max()) + 1 - len(turns)), np.int64)])
+        turns[edges] += 1
+        layout = _cut(atlas, unit, choice, least_border, options, stages, turns)
+    return best
+
+
+def _columns(atlas: Atlas, options: Options) -> int | None:
+    """Give how many unit squares go round the largest periodic chart; None where there is none."""
+    period = 0.0 if atlas.period is None else float(atlas.period.max())
+    if period == 0:
+        return None
+    area = float(face_areas(atlas.mesh.V, atlas.mesh.F).sum())
+    square = (options.piece_size or float(np.sqrt(area / options.pieces))) / np.sqrt(SQUARES)
+    return max(2, round(period / square))

@@ -1,0 +1,1 @@
+"""Tilings, one file a family; each function gives the unit that is repeated."""

@@ -1,0 +1,1 @@
+"""Figures that tile the plane, one a file, and the symmetries they are drawn in."""

@@ -1,0 +1,41 @@
+"""Edges that interlock, for the symmetry that a tiling asks of them."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from meshjig.tiling.classic import classic
+from meshjig.tiling.enlarge import enlarged, moved_knob
+from meshjig.tiling.families.macro import leaning
+from meshjig.types import Floats
+
+__all__ = ["EDGE_SHAPES"]
+
+_POINTS = 8  # a part of a knob
+
+
+def _straight(_: float) -> Floats:
+    return np.array([(0.0, 0.0), (1.0, 0.0)])
+
+
+def _knob(size: float) -> Floats:
+    return enlarged(classic(_POINTS), size).points
+
+
+def _leaning_knob(size: float) -> Floats:
+    return enlarged(leaning(_POINTS), size).points
+
+
+def _knob_and_socket(size: float) -> Floats:
+    """Draw a knob on the first half, and the same turned by a half turn about the middle."""
+    half = moved_knob(classic(_POINTS).points, min(2 * size, 1.5), 0.64) / 2
+    return np.vstack([half, (1, 0) - half[-2::-1]])
+
+
+EDGE_SHAPES: dict[str, Callable[[float], Floats]] = {
+    "J": _leaning_knob,  # free
+    "U": _knob,  # a mirror image of itself
+    "S": _knob_and_socket,  # turned by a half turn, itself
+    "I": _straight,  # both
+}
+"""A curve from (0, 0) to (1, 0), (n, 2), by the letter of its symmetry; its argument scales the knobs."""

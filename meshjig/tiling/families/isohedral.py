@@ -1,0 +1,133 @@
+"""Isohedral tilings: one tile, turned and mirrored, by the type of its symmetry."""
+
+import re
+from collections.abc import Iterator
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from meshjig.errors import OptionError
+from meshjig.tiling.assemble import assemble
+from meshjig.tiling.families.edge_shapes import EDGE_SHAPES
+from meshjig.tiling.unit import Unit
+from meshjig.types import Floats
+
+__all__ = ["STRAIGHT", "isohedral"]
+
+STRAIGHT = (20, 32, 37, 40, 72, 76, 77, 82, 93)  # types whose edges can be nothing but straight
+
+_SIZES = 1.15 * 0.85 ** np.arange(8)  # of a knob, that of the classic square is 1
+_LARGEST = 1.5  # that a knob grows to on a short edge, where 1 is as on the edge of a square
+_WALLS = np.arange(0.05, 0.16, 0.015)  # of a tile's edge: what may be left between two knobs
+
+
+def isohedral(name: str, seed: int = 0) -> Unit:
+    """Shape the edges of an isohedral tiling so that its tiles interlock.
+
+    Knobs are as large as leaves walls of 5 % of the tile's edge, and point the ways that leave the widest.
+
+    Parameters
+    ----------
+    name : str, IH1 to IH93
+    seed : int, decides which way the knobs point where several ways are as good
+
+    Returns
+    -------
+    Unit
+
+    Raises
+    ------
+    OptionError
+        There is no such type, it has straight edges only, or the package tactile is missing.
+
+    References
+    ----------
+    Gruenbaum and Shephard, "Tilings and Patterns", 1987, chapter 6.
+    Kaplan, "Introductory Tiling Theory for Computer Graphics", 2009.
+    """
+    number = _number(name)
+    tiling = _tiling(number)
+    translations = np.array([tiling.t1, tiling.t2])
+    if np.linalg.det(translations) < 0:
+        translations = translations[::-1]
+    scale = float(np.sqrt(np.linalg.det(translations) / tiling.num_aspects))
+    for choices in _shaped(tiling, scale, np.random.default_rng(seed)):
+        walls = [_thinnest(edges, scale) for edges in choices]
+        if max(walls) > 0:
+            edges = choices[int(np.argmax(walls))]
+            return assemble([_placed(edges, aspect) for aspect in tiling.aspects], translations)
+    raise OptionError(f"IH{number:02d} leaves no room for knobs")
+
+
+def _number(name: str) -> int:
+    match = re.fullmatch(r"IH0*(\d+)", name.strip(), re.IGNORECASE)
+    if not match:
+        raise OptionError(f"{name!r} is no isohedral type", hint="give IH and a number, such as IH04")
+    number = int(match[1])
+    if number in STRAIGHT:
+        raise OptionError(
+            f"IH{number:02d} can't interlock: its symmetry keeps all edges straight",
+            hint="choose a type other than " + ", ".join(f"IH{k}" for k in STRAIGHT),
+        )
+    return number
+
+
+def _tiling(number: int) -> Any:
+    try:
+        from tactile import IsohedralTiling, tiling_types
+    except ImportError:
+        raise OptionError(
+            "isohedral tilings need the package tactile", hint="pip install meshjig[isohedral]"
+        ) from None
+    if number not in tiling_types:
+        known = ", ".join(str(k) for k in tiling_types if k not in STRAIGHT)
+        raise OptionError(f"IH{number:02d} is no type whose tiles interlock", hint=f"there are {known}")
+    return IsohedralTiling(number)
+
+
+def _shaped(tiling: Any, scale: float, rng: np.random.Generator) -> Iterator[list[list[Floats]]]:
+    """Draw the tile's edges, in turn around it, for all ways their knobs may point; ever smaller knobs."""
+    shapes = list(tiling.shapes)
+    ways = np.array(list(product((1.0, -1.0), repeat=1 + max(shape.id for shape in shapes))))
+    for size in _SIZES:
+        choices = []
+        for way in rng.permutation(ways):
+            edges = []
+            for shape in shapes:
+                matrix = np.reshape(shape.T, (2, 3))
+                factor = size * scale / np.linalg.norm(matrix[:, 0])
+                curve = EDGE_SHAPES[shape.shape.name](min(factor, _LARGEST)) * (1.0, way[shape.id])
+                edges.append(_moved(curve[::-1] if shape.rev else curve, matrix))
+            choices.append(edges)
+        yield choices
+
+
+def _thinnest(edges: list[Floats], scale: float) -> float:
+    """Give the width up to which walls can be taken off a tile that stays in one piece, 0 if too thin."""
+    import shapely
+
+    tile = shapely.Polygon(np.vstack([curve[:-1] for curve in edges]))
+    if not tile.is_valid:
+        return 0.0
+    widest = 0.0
+    for width in _WALLS:
+        if tile.buffer(-width * scale / 2).geom_type != "Polygon":
+            break
+        widest = width
+    return float(widest)
+
+
+def _placed(edges: list[Floats], aspect: list[float]) -> list[Floats]:
+    """Carry the tile to one of its places, counterclockwise there too."""
+    matrix = np.reshape(aspect, (2, 3))
+    edges = [_moved(curve, matrix) for curve in edges]
+    x, y = np.vstack([curve[:-1] for curve in edges]).T
+    if np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) < 0:
+        edges = [curve[::-1] for curve in edges[::-1]]
+    return edges
+
+
+def _moved(points: Floats, matrix: Floats) -> Floats:
+    moved: Floats = points @ matrix[:, :2].T + matrix[:, 2]
+    return moved

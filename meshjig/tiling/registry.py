@@ -1,0 +1,119 @@
+"""All tilings by name: our own, a user's drawing, and those of other packages."""
+
+from collections.abc import Callable
+from difflib import get_close_matches
+from typing import NamedTuple
+
+from meshjig.errors import OptionError
+from meshjig.tiling.classic import classic
+from meshjig.tiling.families import escher
+from meshjig.tiling.families.hexagon import hexagons
+from meshjig.tiling.families.isohedral import isohedral
+from meshjig.tiling.families.macro import macro
+from meshjig.tiling.families.polyomino import polyomino
+from meshjig.tiling.families.square import squares
+from meshjig.tiling.plugins import describe_plugins, plugin_names, plugin_unit
+from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.unit import Unit
+from meshjig.tiling.user_svg import user_unit
+from meshjig.types import Floats
+
+__all__ = ["family_names", "get_decor", "get_family"]
+
+
+class _Family(NamedTuple):
+    description: str
+    unit: Callable[[int, int | None], Unit]  # of seed and columns
+
+
+_OWN = {
+    "classic": _Family("smooth round knobs, as sold in shops", lambda seed, columns: squares(classic)),
+    "rectangular": _Family("square-shouldered dovetails", lambda seed, columns: squares(rectangular)),
+    "macro": _Family("leaning knobs, four tiles turned about a corner", lambda seed, columns: macro()),
+    "hex": _Family("hexagons with round knobs", lambda seed, columns: hexagons()),
+    "polyomino": _Family("tiles grown at random from small squares", polyomino),
+}
+_ISOHEDRAL, _ESCHER, _SVG = "isohedral:", "escher:", ".svg"
+
+
+def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
+    """Give the unit that a tiling repeats.
+
+    Parameters
+    ----------
+    name : str
+        One of `family_names`, ``isohedral:`` and a type such as IH04, or the path of an SVG file.
+    seed : int, for tilings that have something random about them
+    columns : int, at least 1, optional
+        For tilings that can close around a periodic chart with any number of columns: how many.
+
+    Returns
+    -------
+    Unit
+
+    Raises
+    ------
+    OptionError
+        There is no such tiling, or it can't be made; the sentence says why.
+    """
+    if name in _OWN:
+        return _OWN[name].unit(seed, columns)
+    if name.lower().endswith(_SVG):
+        return user_unit(name)
+    if name.startswith(_ISOHEDRAL):
+        return isohedral(name.removeprefix(_ISOHEDRAL), seed)
+    if _figure(name):
+        return escher.unit(_figure(name))
+    if name in plugin_names():
+        return plugin_unit(name, seed, columns)
+    known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *plugin_names(), "FILE.svg"]
+    close = get_close_matches(name.lower(), [*known, "isohedral:IH01"], n=1)
+    raise OptionError(
+        f"there is no tiling {name!r}" + (f"; did you mean {close[0]}?" if close else ""),
+        hint="known are " + ", ".join(known),
+    )
+
+
+def get_decor(name: str) -> list[list[Floats]] | None:
+    """Give the lines drawn inside a tiling's tiles, for pictures.
+
+    Parameters
+    ----------
+    name : str, as for `get_family`
+
+    Returns
+    -------
+    list of lists of (n, 2) float64, or None
+        A list a tile, in the unit's lengths; None for tilings that are outlines only.
+    """
+    return escher.decor(_figure(name)) if _figure(name) else None
+
+
+def family_names() -> list[tuple[str, str]]:
+    """List the tilings there are, with one line about each.
+
+    Tilings of other packages that can't be loaded are left out, and named in a warning; those with one of
+    our names are left out too.
+
+    Returns
+    -------
+    list of (str, str), name and description
+    """
+    return [
+        *((name, family.description) for name, family in _OWN.items()),
+        *((name, f"figures: {name.removeprefix(_ESCHER)}") for name in _figures()),
+        ("isohedral:IHnn", "one shape in the symmetry of a type from IH01 to IH93"),
+        ("FILE.svg", "your own outline, or several that tile together"),
+        *(plugin for plugin in describe_plugins() if plugin[0] not in _OWN),
+    ]
+
+
+def _figures() -> list[str]:
+    return [_ESCHER + name for name in escher.names()]
+
+
+def _figure(name: str) -> str:
+    """Give the figure that a name stands for, the first one for all of them, or nothing."""
+    if name == _ESCHER.removesuffix(":"):
+        return escher.names()[0]
+    return name.removeprefix(_ESCHER) if name in _figures() else ""

@@ -1,0 +1,127 @@
+"""Find the two translations by which outlines tile the plane, from the outlines alone."""
+
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from meshjig.tiling.svg.border import Border
+from meshjig.types import Floats
+
+__all__ = ["find_translations"]
+
+_CANDIDATES = 64
+_PAIRS = 40  # pairs of candidates that are laid out in full
+_OPPOSITE = -0.9
+
+
+def find_translations(border: Border, nodes: Floats, area: float) -> Floats | None:
+    """Move stretches of border onto those that run the other way, and vote.
+
+    Wherever two tiles meet, a stretch of one border lies on a stretch of another: the translations
+    between the two are voted for by every point of them. Of the pairs of translations that span
+    nearly the outlines' area, the one wins that brings most of the border onto itself.
+
+    Parameters
+    ----------
+    border : Border, of all outlines
+    nodes : (n, 2) float64, points of the outlines that translations carry onto each other exactly
+    area : float, of all outlines
+
+    Returns
+    -------
+    (2, 2) float64, or None
+        A vector a row, as short as can be, the second on the left of the first, the first as level as
+        can be; None where no stretches fit.
+    """
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(nodes)
+    candidates = [_exact(border, peak, tree) for peak in _voted(border, area)]
+    fits = [border.fits(by) | border.fits(-by) for by in candidates]
+    pairs = []
+    for a, b in combinations(range(len(candidates)), 2):
+        spanned = abs(np.linalg.det(np.array([candidates[a], candidates[b]]))) / area
+        if 0.75 < spanned < 1.33:
+            pairs.append((float((fits[a] | fits[b]).mean() - abs(spanned - 1)), a, b))
+    best, best_score = None, -np.inf
+    for _, a, b in sorted(pairs, reverse=True)[:_PAIRS]:
+        pair = _reduced(np.array([candidates[a], candidates[b]]))
+        score = _score(border, tree, pair, area)
+        if score > best_score + 1e-9:
+            best, best_score = pair, score
+    return best
+
+
+def _voted(border: Border, area: float) -> list[Floats]:
+    """Give the differences (2,) between points on opposite stretches that are most frequent."""
+    from scipy.ndimage import maximum_filter, uniform_filter
+
+    opposite = border.directions @ border.directions.T < _OPPOSITE
+    i, j = np.nonzero(opposite)
+    apart = border.points[j] - border.points[i]
+    size = np.sqrt(area)
+    apart = apart[np.linalg.norm(apart, axis=1) > 0.05 * size]
+    if len(apart) == 0:
+        return []
+    cell = 2 * border.spacing
+    low = apart.min(0) - 2.25 * cell
+    at = ((apart - low) / cell).astype(np.int64)
+    votes = np.zeros(at.max(0) + 3)
+    np.add.at(votes, tuple(at.T), 1.0)
+    votes = uniform_filter(votes, 3, mode="constant")
+    window = 2 * max(1, round(0.04 * size / cell)) + 1
+    peak = (votes == maximum_filter(votes, window, mode="constant")) & (votes > 0)
+    where = np.argwhere(peak)
+    where = where[np.argsort(-votes[tuple(where.T)], kind="stable")]
+    found: list[Floats] = []
+    for by in low + (where + 0.5) * cell:
+        seen = np.array([*found, np.zeros(2)])
+        if min(np.linalg.norm(seen - by, axis=1).min(), np.linalg.norm(seen + by, axis=1).min()) > 4 * cell:
+            found.append(by)
+        if len(found) == _CANDIDATES:
+            break
+    return found
+
+
+def _exact(border: Border, rough: Floats, nodes: Any) -> Floats:
+    """Give the translation near a rough one that fits best: one between two nodes, where there is one."""
+    from scipy.spatial import cKDTree
+
+    pairs = nodes.query_ball_tree(cKDTree(nodes.data - rough), 4 * border.spacing)
+    first = np.repeat(np.arange(len(pairs)), [len(found) for found in pairs])
+    second = np.concatenate([np.array(found, np.int64) for found in pairs])
+    near = nodes.data[second] - nodes.data[first]
+    choices = [rough]
+    for grain in (border.tolerance / 10, border.tolerance):
+        cell, count = np.unique(np.rint(near / grain), axis=0, return_inverse=True, return_counts=True)[1:]
+        often = np.argsort(-count, kind="stable")[:6]
+        choices += [near[cell.ravel() == k].mean(0) for k in often]
+    return max(choices, key=lambda by: float(border.fit(by).sum()))
+
+
+def _reduced(pair: Floats) -> Floats:
+    """Give the shortest vectors of the same lattice."""
+    a, b = sorted(pair, key=np.linalg.norm)
+    while True:
+        b = b - np.rint(a @ b / (a @ a)) * a
+        if np.linalg.norm(b) >= np.linalg.norm(a) * (1 - 1e-9):
+            break
+        a, b = b, a
+    if abs(b[0]) * np.linalg.norm(a) > abs(a[0]) * np.linalg.norm(b) * (1 + 1e-9):
+        a, b = b, a
+    a = a if a[0] > 0 else -a
+    b = b if a[0] * b[1] - a[1] * b[0] > 0 else -b
+    return np.array([a, b]) + 0.0
+
+
+def _score(border: Border, nodes: Any, pair: Floats, area: float) -> float:
+    """Tell how much of the border comes to lie on itself; of equals, those on which nodes meet are better."""
+    around = [sign * by for by in (*pair, pair.sum(0), pair[0] - pair[1]) for sign in (1, -1)]
+    covered = np.max([border.fits(by) for by in around], axis=0)
+    met = [
+        np.isfinite(nodes.query(nodes.data - by, distance_upper_bound=border.tolerance)[0]) for by in around
+    ]
+    off = abs(np.linalg.det(pair) / area - 1)
+    longest = np.linalg.norm(pair, axis=1).sum() / np.sqrt(area)
+    return float(covered.mean() + 0.1 * np.sum(met) / len(nodes.data) - off - 0.01 * longest)
