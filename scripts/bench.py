@@ -3,6 +3,8 @@
     scripts/bench.py [peer] --corpus DIR --peer FILE   bunny and nefertiti, ours and the peer's, in one go
     scripts/bench.py growth                            seconds and memory by stage at 50k, 200k and 1M faces
     scripts/bench.py solids                            seconds of the solids by pieces and by faces
+    scripts/bench.py charts --corpus DIR               charts, seams and seconds, xatlas beside them
+    scripts/bench.py cells --corpus DIR                cells, knobs and cut, against one LSCM a cell
 
 Without a name, everything runs that can. The peer is a script called as `FILE MESH --grid 10
 --thickness 2 --gap 0.2 --axis auto --out DIR --json`, which prints its wall_s. Both start from the same
@@ -17,6 +19,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from benches import cells, charts
+
 MESHES = ("stanford-bunny.obj", "nefertiti.obj")
 SIZES = (50_000, 200_000, 1_000_000)
 PIECES = (50, 100, 200, 400)
@@ -27,8 +31,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", nargs="*", choices=["peer", "growth", "solids", []], default=[])
-    parser.add_argument("--corpus", type=Path, help="folder with stanford-bunny.obj and nefertiti.obj")
+    parser.add_argument(
+        "what", nargs="*", choices=["peer", "growth", "solids", "charts", "cells", []], default=[]
+    )
+    parser.add_argument(
+        "--corpus", type=Path, help="folder with stanford-bunny.obj, nefertiti.obj and others"
+    )
     parser.add_argument("--peer", type=Path, help="script of the projected-cutter route")
     parser.add_argument("--runs", type=int, default=3, help="runs of each, in turn; the median is quoted")
     parser.add_argument(
@@ -40,9 +48,15 @@ def main() -> int:
         return _worker(Path(a.worker[0]), Path(a.worker[1]), int(a.worker[2]), a.method)
     if "peer" in a.what and not (a.corpus and a.peer):
         parser.error("peer needs --corpus and --peer")
+    if {"charts", "cells"} & set(a.what) and not a.corpus:
+        parser.error("charts and cells need --corpus")
     if a.corpus and a.peer and (not a.what or "peer" in a.what):
         for name in MESHES:
             _against_peer(a.corpus / name, a.peer, a.runs, a.method)
+    if a.corpus and (not a.what or "charts" in a.what):
+        charts.run(a.corpus)
+    if a.corpus and (not a.what or "cells" in a.what):
+        cells.run(a.corpus)
     if not a.what or "growth" in a.what:
         print("\nby faces, 100 pieces of a vase: seconds by stage, and peak memory so far")
         for faces in SIZES:
@@ -128,7 +142,7 @@ def _worker(mesh: Path, out: Path, pieces: int, method: str) -> int:
             memory[stage] = peak_memory_mb()
 
     puzzle = meshjig.make_puzzle(
-        mesh, size=150.0, pieces=pieces, faces="all", clearance_method=method, progress=note
+        mesh, size=150.0, pieces=pieces, faces="all", layout="tiles", clearance_method=method, progress=note
     )
     start = time.perf_counter()
     puzzle.save(out, formats=("stl",), preview=False)
@@ -139,8 +153,7 @@ def _worker(mesh: Path, out: Path, pieces: int, method: str) -> int:
 
 
 def _vase(faces: int, pieces: int, method: str) -> dict:
-    sys.path.insert(0, str(Path(__file__).parent))
-    from make_models import vase
+    from models.vases import vase
 
     rows = round((faces / 2 * 0.55) ** 0.5)
     with tempfile.TemporaryDirectory() as folder:

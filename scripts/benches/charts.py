@@ -1,0 +1,91 @@
+"""Charts: how few, how true, how fast; xatlas beside them, and one LSCM of the same proxy as the clock."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+
+MESHES = (
+    "nefertiti.obj",
+    "stanford-bunny.obj",
+    "rocker-arm.obj",
+    "fertility.off",
+    "fandisk.obj",
+    "camelhead.off",
+)
+LARGE = 900_000  # faces of the mesh that is made large and noisy
+NOISE = 0.25  # of its edges' length
+
+
+def run(corpus: Path) -> None:
+    """Print a table, a mesh a line: charts and seam/sqrt(area) before and after zipping, and xatlas's own."""
+    columns = f"{'mesh':18}{'charts':>14}{'seam':>14}{'gate':>8}{'flips':>6}{'s':>7}{'/lscm':>7}"
+    print(f"\n{columns}   xatlas: charts, seam, gate, s")
+    for name in MESHES:
+        mesh = _scan(corpus / name)
+        print(f"{name:18}{_row(mesh)}   {_of_xatlas(mesh)}", flush=True)
+    mesh = _large(_scan(corpus / MESHES[0]))
+    print(f"{f'{len(mesh.F)} noisy':18}{_row(mesh)}", flush=True)
+
+
+def _row(mesh) -> str:
+    from meshjig import build_atlas
+
+    seconds, clock = [], []
+    for _ in range(3 if len(mesh.F) < LARGE / 2 else 1):
+        start = time.perf_counter()
+        atlas = build_atlas(mesh)
+        seconds.append(time.perf_counter() - start)
+        clock.append(_lscm(mesh))
+    f, wall = atlas.facts, float(np.median(seconds))
+    charts = f"{f['n_charts_before_zip']} -> {f['n_charts']}"
+    seam = f"{f['seam_before_zip']:.1f} -> {f['seam_over_sqrt_area']:.1f}"
+    ratio = wall / float(np.median(clock))
+    return f"{charts:>14}{seam:>14}{f['gate_share']:>8.3f}{f['flips']:>6}{wall:>7.2f}{ratio:>7.0f}"
+
+
+def _of_xatlas(mesh) -> str:
+    from meshjig import build_atlas
+
+    start = time.perf_counter()
+    f = build_atlas(mesh, method="xatlas", zipped=False).facts
+    seconds = time.perf_counter() - start
+    return f"{f['n_charts']:>6} {f['seam_over_sqrt_area']:>5.1f} {f['gate_share']:.3f} {seconds:.1f}"
+
+
+def _lscm(mesh) -> float:
+    """Time one LSCM of the proxy that the charts are made on."""
+    import igl
+
+    from meshjig.charts.proxy import proxy
+
+    W, G = proxy(mesh.V, mesh.F)
+    far = np.array([0, np.linalg.norm(W - W[0], axis=1).argmax()])
+    start = time.perf_counter()
+    igl.lscm(W, G, far, np.array([[0.0, 0.0], [1.0, 0.0]]))
+    return time.perf_counter() - start
+
+
+def _scan(path: Path):
+    from meshjig import read_scan
+
+    return read_scan(path, size=150.0).mesh
+
+
+def _large(mesh):
+    """Subdivide a mesh to about a million faces and add noise along the normals."""
+    from meshjig import Mesh
+    from meshjig.measure import vertex_normals
+    from meshjig.scan import refine_long_edges
+    from meshjig.topology import edges
+
+    V, F = mesh.V, mesh.F
+    while len(F) < LARGE:
+        E = edges(F).E
+        V, F = refine_long_edges(
+            V, F, 0.8 * float(np.median(np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1)))
+        )
+    E = edges(F).E
+    step = float(np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1).mean())
+    off = np.random.default_rng(0).normal(0, NOISE * step, len(V))
+    return Mesh(V + off[:, None] * vertex_normals(V, F), F)
