@@ -158,6 +158,19 @@ def check(
 
 
 @app.command()
+def view(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="a folder that meshjig made")],
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Open a puzzle's viewer in the browser."""
+    with sentences(verbose, quiet):
+        from meshjig.output.viewer import open_viewer
+
+        open_viewer(directory)
+
+
+@app.command()
 def tiles(
     name: Annotated[str | None, typer.Argument(help="of a tiling; all are listed if none is given")] = None,
     svg: Annotated[Path | None, typer.Option("--svg", metavar="FILE", help="draw it there")] = None,

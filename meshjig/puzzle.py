@@ -49,7 +49,12 @@ class Puzzle:
     curves: Curves = field(default_factory=Curves)
 
     def save(
-        self, directory: str | Path, formats: tuple[str, ...] | None = None, *, preview: bool = True
+        self,
+        directory: str | Path,
+        formats: tuple[str, ...] | None = None,
+        *,
+        preview: bool = True,
+        viewer: bool = True,
     ) -> Path:
         """Write the puzzle to a folder.
 
@@ -60,6 +65,7 @@ class Puzzle:
         directory : path
         formats : tuple of "stl", "ply", "3mf", "obj", "glb"; as the options have it when not given
         preview : bool, also draw preview.png
+        viewer : bool, also write viewer.html
 
         Returns
         -------
@@ -79,9 +85,16 @@ class Puzzle:
                 plane_curves=self.curves.plane,
                 space_curves=self.curves.space,
                 preview=preview,
+                viewer=viewer,
             )
         )
         return Path(directory)
+
+    def _repr_html_(self) -> str:
+        """Show the viewer in a notebook."""
+        from meshjig.output.viewer import viewer_html
+
+        return viewer_html(self.pieces, self.report)
 
     @classmethod
     def load(cls, directory: str | Path) -> Puzzle:

@@ -24,7 +24,7 @@ from benches import cells, charts
 MESHES = ("stanford-bunny.obj", "nefertiti.obj")
 SIZES = (50_000, 200_000, 1_000_000)
 PIECES = (50, 100, 200, 400)
-NOT_MAKING = ("check", "preview")  # the peer neither judges nor draws
+NOT_MAKING = ("check", "preview", "viewer")  # the peer neither judges nor draws
 
 
 def main() -> int:
@@ -145,7 +145,7 @@ def _worker(mesh: Path, out: Path, pieces: int, method: str) -> int:
         mesh, size=150.0, pieces=pieces, faces="all", layout="tiles", clearance_method=method, progress=note
     )
     start = time.perf_counter()
-    puzzle.save(out, formats=("stl",), preview=False)
+    puzzle.save(out, formats=("stl",), preview=False, viewer=False)
     stages = puzzle.report["timings_s"] | {"write": time.perf_counter() - start}
     faces = puzzle.report["input"]["working_faces"]
     print(json.dumps({"pieces": len(puzzle.pieces), "faces": faces, "stages": stages, "memory": memory}))

@@ -20,7 +20,6 @@ class Seeds:
     weights: Floats  # (N,), mm2, of the power cells
     pairs: Ints  # (p, 2), cells
     poles: Floats  # (p, 2, 3), mm
-    shift: Floats  # (p,), how far the line between poles may move, of their squared distance
 
     @property
     def n_cells(self) -> int:

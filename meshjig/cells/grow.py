@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.cells.cell_mesh import CellMesh, Seeds
 from meshjig.cells.part import Parted
-from meshjig.cells.passes import MANY, Grown, evened, grown_again, grown_from, settled
+from meshjig.cells.passes import Grown, evened, grown_again, grown_from, settled
 from meshjig.cells.quad import four_sided
 from meshjig.cells.refine import places, refine
 from meshjig.cells.spread import plant
@@ -24,6 +24,7 @@ _BEND = 0.5  # spacings: what a radian of a crease adds to a way across it
 _OFF = 0.02  # of the number of cells wanted: farther off than that, it is worth another try
 _SMALLEST = 0.5  # of the mean area; so is a cell smaller than that
 _TRIES = 3
+_MANY = 0.06  # of the cells: with more pairs than that, another try does not help
 _UNEVEN = 0.1  # of the seeds that a component deserves: a grid may miss them by that many
 
 
@@ -99,7 +100,7 @@ def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:
         grown = evened(s, grown_from(s, seeds, spacing), spacing)
         tried.append(grown)
         well = abs(grown.parted.n - n) <= _OFF * n and grown.areas.min() >= _SMALLEST
-        if well or len(grown.parted.pairs) > MANY * n:
+        if well or len(grown.parted.pairs) > _MANY * n:
             break
         if turn == _TRIES - 2:  # another draw does not help: so many fewer seeds
             wanted = max(n - min(abs(g.parted.n - n) for g in tried), 1)

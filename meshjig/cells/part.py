@@ -14,8 +14,8 @@ from meshjig.types import Bools, Floats
 
 __all__ = ["Parted", "part"]
 
-_WITH_PARTNERS = 8  # rounds
-_ROUNDS = 16
+_WITH_PARTNERS = 6  # rounds
+_ROUNDS = 14
 
 
 class Parted(NamedTuple):
@@ -60,10 +60,12 @@ def part(s: Surface, field: Field, n: int, pairs: list[Pair], relative: Floats, 
         good = shape == DISC
         if good.all():
             break
-        rings = shape == RING if turn < _WITH_PARTNERS else np.zeros(count, bool)
-        pairs = [pair for pair in pairs if not (rings[[pair.first, pair.second]].any() and pair.second < n)]
-        new = pair_up(s, cut, owner, rings, _taken(pairs, count), turn)
-        pairs += new + split_up(s, cut, owner, ~good & ~rings)
+        rings = shape == RING
+        if turn < _WITH_PARTNERS and rings.any() and count == n:
+            pairs = [pair for pair in pairs if good[pair.first] and good[pair.second]]
+            pairs += pair_up(s, cut, owner, rings, _taken(pairs, count), turn)
+        else:
+            pairs += split_up(s, cut, owner, ~good)
     return Parted(cut, pairs, good)
 
 

@@ -17,9 +17,9 @@ from meshjig.cells.surface import Surface
 from meshjig.measure import face_areas, sums
 from meshjig.types import Floats, Ints
 
-__all__ = ["MANY", "Grown", "evened", "grown_again", "grown_from", "settled"]
+__all__ = ["Grown", "evened", "grown_again", "grown_from", "settled"]
 
-MANY = 0.15  # of the cells: with more pairs than that, limbs and holes are everywhere
+_MANY = 0.15  # of the cells: with more pairs than that, limbs and holes are everywhere
 _EVEN = 0.03  # standard deviation of areas over their mean that is well
 _GAIN = 0.7  # of what is missing: the rest comes by itself
 _ROUNDS = 3
@@ -101,8 +101,7 @@ def grown_from(
     parted = part(s, field, n, pairs, relative, spacing)
     cells = np.array([pair[:2] for pair in parted.pairs], np.int64).reshape(-1, 2)
     poles = np.array([pair.poles for pair in parted.pairs], np.int64).reshape(-1, 2)
-    shift = np.array([pair.shift for pair in parted.pairs], np.float64)
-    return Grown(parted, Seeds(s.V[seeds], weights, cells, s.V[poles], shift))
+    return Grown(parted, Seeds(s.V[seeds], weights, cells, s.V[poles]))
 
 
 def grown_again(s: Surface, start: Seeds, spacing: float, relative: Floats | None) -> Grown:
@@ -111,8 +110,7 @@ def grown_again(s: Surface, start: Seeds, spacing: float, relative: Floats | Non
 
     tree = cKDTree(s.V)
     seeds, poles = tree.query(start.points)[1], tree.query(start.poles.reshape(-1, 3))[1].reshape(-1, 2)
-    known = zip(start.pairs.tolist(), poles.tolist(), start.shift.tolist(), strict=True)
-    pairs = [Pair(a, b, (p, q), shift) for (a, b), (p, q), shift in known]
+    pairs = [Pair(a, b, (p, q)) for (a, b), (p, q) in zip(start.pairs.tolist(), poles.tolist(), strict=True)]
     relative = np.ones(start.n_cells) if relative is None else relative
     return grown_from(s, seeds, spacing, weights=start.weights, pairs=pairs, relative=relative)
 
@@ -121,7 +119,7 @@ def evened(s: Surface, grown: Grown, spacing: float) -> Grown:
     """Grow again where cells that were joined and cut another way came out uneven."""
     best, relative = grown, np.ones(grown.parted.n)
     for _ in range(_ROUNDS):
-        few = 0 < len(grown.parted.pairs) <= MANY * grown.parted.n
+        few = 0 < len(grown.parted.pairs) <= _MANY * grown.parted.n
         if not few or grown.n_bad or best.areas.std() < _EVEN:
             break
         relative = np.append(relative, np.ones(grown.parted.n - len(relative)))

@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 
 from meshjig.cells.surface import Surface
-from meshjig.measure import sums
 from meshjig.types import Floats, Ints
 
 __all__ = ["softened"]
@@ -13,7 +12,7 @@ __all__ = ["softened"]
 _KEPT = 5  # sources of a vertex that are smoothed: those of the cells that can meet there
 _REACH = 0.1  # spacings over which it averages
 _ROUNDS = (2, 12)
-_WEIGHTS = (1e-3, 1e3)  # bounds: slivers neither tear nor rule
+_ACROSS = 1e-3  # the weight of an edge from a crease to beside it
 
 
 def softened(s: Surface, near: tuple[Ints, Floats], spacing: float) -> tuple[Ints, Floats]:
@@ -54,17 +53,11 @@ def softened(s: Surface, near: tuple[Ints, Floats], spacing: float) -> tuple[Int
 
 
 def _averaging(s: Surface) -> Any:
-    """Give the matrix that averages a value over neighbours and keeps linear ones, (n, n)."""
-    from scipy.sparse import coo_matrix, diags, identity
+    """Give the matrix that averages a value over neighbours, but not over creases, (n, n)."""
+    from scipy.sparse import diags, identity
 
-    n, weight = len(s.V), np.empty(3 * len(s.F))
-    for k in range(3):
-        opposite = s.V[s.F[:, k - 1]]
-        p, q = s.V[s.F[:, k]] - opposite, s.V[s.F[:, (k + 1) % 3]] - opposite
-        area = np.linalg.norm(np.cross(p, q), axis=1)
-        weight[k::3] = np.einsum("ij,ij->i", p, q) / np.maximum(area, 1e-300)  # twice the cotangent
-    w = np.clip(sums(s.e.edge_of_halfedge, weight, len(s.e.E)), *_WEIGHTS)
-    w = np.where(s.steep[s.e.E[:, 0]] == s.steep[s.e.E[:, 1]], w, _WEIGHTS[0])  # not over a crease
-    W = coo_matrix((w, (s.e.E[:, 0], s.e.E[:, 1])), shape=(n, n)).tocsr()
-    W = W + W.T
-    return ((identity(n) + diags(1 / np.asarray(W.sum(1)).ravel()) @ W) / 2).tocsr()
+    W = s.weight.copy()
+    if s.steep.any():
+        rows = np.repeat(np.arange(W.shape[0]), np.diff(W.indptr))
+        W.data[s.steep[rows] != s.steep[W.indices]] = _ACROSS
+    return ((identity(W.shape[0]) + diags(1 / np.asarray(W.sum(1)).ravel()) @ W) / 2).tocsr()

@@ -13,6 +13,7 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["Surface", "surface"]
 
 
+_WEIGHTS = (1e-3, 1e3)  # bounds: slivers neither tear nor rule
 _SHARP_EDGES = 6  # at a vertex, at most
 _STRAIGHT = -np.cos(np.radians(40))  # between two edges of a crease: less is nearly straight on
 _SHARP = np.cos(np.radians(40))  # between the normals of two faces: less is a crease
@@ -27,6 +28,7 @@ class Surface:
     e: Edges
     area: Floats  # (n,), mm2, of each vertex
     graph: Any  # from surface_graph
+    weight: Any  # (n, n) sparse, of each edge: the mean of its cotangents
     steep: Bools  # (n,), on a crease that borders should follow
     component: Ints  # (n,)
     component_area: Floats  # (c,), mm2
@@ -50,7 +52,33 @@ def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
     k, component = connected_components(graph, directed=False)
     closed = ~np.isin(np.arange(k), component[e.E[e.n_faces == 1]])
     steep = _steep(V, F, e) if bend else np.zeros(len(V), bool)
-    return Surface(V, F, e, area, graph, steep, component.astype(np.int64), sums(component, area, k), closed)
+    return Surface(
+        V,
+        F,
+        e,
+        area,
+        graph,
+        _cotangents(V, F, e),
+        steep,
+        component.astype(np.int64),
+        sums(component, area, k),
+        closed,
+    )
+
+
+def _cotangents(V: Floats, F: Ints, e: Edges) -> Any:
+    """Give the weights of edges that make averages over neighbours keep linear functions, (n, n)."""
+    from scipy.sparse import csr_matrix
+
+    cotangent = np.empty(3 * len(F))
+    for k in range(3):
+        opposite = V[F[:, k - 1]]
+        p, q = V[F[:, k]] - opposite, V[F[:, (k + 1) % 3]] - opposite
+        area = np.linalg.norm(np.cross(p, q), axis=1)
+        cotangent[k::3] = np.einsum("ij,ij->i", p, q) / np.maximum(area, 1e-300)
+    w = np.clip(sums(e.edge_of_halfedge, cotangent, len(e.E)) / 2, *_WEIGHTS)
+    a, b = e.E.T
+    return csr_matrix((np.r_[w, w], (np.r_[a, b], np.r_[b, a])), shape=(len(V), len(V)))
 
 
 def _steep(V: Floats, F: Ints, e: Edges) -> Bools:

@@ -4,14 +4,17 @@ import numpy as np
 
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
-from meshjig.charts.flatten import border_is_simple, is_unflipped, unit_stretch
+from meshjig.charts.flatten import border_is_simple, flat_share, is_unflipped, unit_stretch
 from meshjig.charts.part import part
+from meshjig.charts.strays import without_strays
 from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
 from meshjig.topology import Edges, compact, edges, is_disc
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Carrier"]
+
+_MAY_LOSE = 0.03  # of the area within FLAT_LIMITS, to turn back mirrored faces and draw borders apart
 
 
 class Carrier:
@@ -51,10 +54,14 @@ class Carrier:
             return None
         X = np.empty((int(corners.max()) + 1, 3))
         X[corners] = self._V[self._F[faces]]
-        uv = part(X, corners, untangle(X, corners, self._first_guess(chart, faces, corners)))
+        guess = without_strays(X, corners, self._first_guess(chart, faces, corners))
+        uv = part(X, corners, untangle(X, corners, guess))
         if not (is_unflipped(uv, corners) and border_is_simple(uv, corners)):
             return None
-        return Chart(faces, unit_stretch(X, corners, uv), corners)
+        uv = unit_stretch(X, corners, uv)
+        if flat_share(X, corners, uv) < flat_share(X, corners, guess) - _MAY_LOSE:
+            return None  # too much was pulled along
+        return Chart(faces, uv, corners)
 
     def _cut_around(self, leaves: Ints, chart: Chart) -> Bools:
         """Tell which edges are cut: all between leaves but those that are closed inside a chart, (e,)."""

@@ -7,7 +7,7 @@ from meshjig.charts.arap import arap
 from meshjig.charts.bend import Bend
 from meshjig.charts.flatten import FLAT_LIMITS, ring_is_simple
 from meshjig.charts.lscm import lscm
-from meshjig.charts.region import Region, Regions
+from meshjig.charts.region import Region, Regions, is_stout
 from meshjig.charts.tutte import tutte
 from meshjig.errors import ChartError
 from meshjig.measure import face_areas, singular_values
@@ -24,7 +24,7 @@ _ITERATIONS = 4  # of ARAP; more hardly ever change the verdict
 class Judge:
     """Answers whether regions of one mesh are good charts.
 
-    A good chart is a disc that flattens without mirrored faces, keeps both its stretches within
+    A good chart is a disc without thin parts that flattens without mirrored faces, keeps both its stretches within
     FLAT_LIMITS on enough of its area, and has a border that does not meet itself in the plane.
     Cheap tests come first. ARAP stands in for SLIM: it takes a fifth of the time, and the two agree
     on nine regions of ten.
@@ -54,7 +54,7 @@ class Judge:
 
     def _is_good(self, faces: Ints) -> bool:
         region = self._regions.disc(faces)
-        if region is None or self._bend.exceeds(faces, _SPREAD):
+        if region is None or self._bend.exceeds(faces, _SPREAD) or not is_stout(region):
             return False
         V, area = self._V[region.kept], self._area[faces]
         try:

@@ -9,11 +9,13 @@ from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
 from meshjig.charts.transfer import transfer_labels
-from meshjig.types import Floats, Ints
+from meshjig.topology import compact, components
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["own_charts"]
 
 _LEAST_SHARE = 0.95  # of the area within FLAT_LIMITS, of a glued chart that is flattened once more
+_LEAST_OF_LEAF = 0.97  # the same of a region of the proxy: less stretched parts of it can be glued later
 
 Zip = Callable[[Floats, Ints, list[Chart]], list[Chart]]
 
@@ -52,7 +54,7 @@ def own_charts(
     """
     W, G = light
     regions = [np.flatnonzero(label == k) for k in range(int(label.max()) + 1)]
-    leaves = _sound_charts(W, G, regions, method, seed)
+    leaves = _sound_charts(W, G, regions, method, seed, _LEAST_OF_LEAF)
     light_leaf = np.empty(len(G), np.int64)
     for number, leaf in enumerate(leaves):
         light_leaf[leaf.faces] = number
@@ -65,20 +67,50 @@ def own_charts(
     carrier = Carrier(V, F, transfer_labels(V, F, W, G, light_leaf), W, G, light_leaf)
     carried: list[Chart] = []
     for chart in charts:
-        whole = carrier.carry(chart)
-        if whole is not None:
-            carried.append(whole)
-            continue
-        for number in np.unique(light_leaf[chart.faces]).tolist():
-            part = carrier.carry(leaves[number])
-            region = np.flatnonzero(carrier.leaf == number)
-            carried += [part] if part is not None else _sound_charts(V, F, [region], method, seed)
+        made, missing = _carried(carrier, chart, leaves, light_leaf)
+        carried += made
+        regions = [np.flatnonzero(carrier.leaf == number) for number in missing]
+        carried += _sound_charts(V, F, regions, method, seed)
     return Charting(carried, method, carrier.leaf)
 
 
-def _sound_charts(V: Floats, F: Ints, regions: list[Ints], method: Method, seed: int) -> list[Chart]:
+def _carried(
+    carrier: Carrier, chart: Chart, leaves: list[Chart], leaf: Ints
+) -> tuple[list[Chart], list[int]]:
+    """Carry a chart whole, or what hangs together without the leaves that can't be carried, or its leaves.
+
+    The second list holds the leaves that can't be carried.
+    """
+    whole = carrier.carry(chart)
+    if whole is not None:
+        return [whole], []
+    numbers = np.unique(leaf[chart.faces]).tolist()
+    alone = {number: carrier.carry(leaves[number]) for number in numbers} if len(numbers) > 1 else {}
+    sound = [number for number in numbers if alone.get(number) is not None]
+    made: list[Chart] = []
+    for part in _parts(chart, np.isin(leaf[chart.faces], sound)):
+        inside = np.unique(leaf[part.faces]).tolist()
+        glued = carrier.carry(part) if 1 < len(inside) < len(numbers) else None
+        made += [glued] if glued is not None else [one for k in inside if (one := alone[k]) is not None]
+    return made, [number for number in numbers if number not in sound]
+
+
+def _parts(chart: Chart, kept: Bools) -> list[Chart]:
+    """Give the parts that hang together of a chart of which only some faces (k,) are kept."""
+    n, part = components(chart.corners[kept])
+    parts = []
+    for k in range(n):
+        rows = np.flatnonzero(kept)[part == k]
+        corners, own = compact(chart.corners[rows])
+        parts.append(Chart(chart.faces[rows], chart.uv[own], corners))
+    return parts
+
+
+def _sound_charts(
+    V: Floats, F: Ints, regions: list[Ints], method: Method, seed: int, least_share: float = 0.0
+) -> list[Chart]:
     given = [region for region in regions if len(region)]
-    return [plain(F, *chart) for region in given for chart in rescue(V, F, region, method, seed)]
+    return [plain(F, *chart) for region in given for chart in rescue(V, F, region, method, seed, least_share)]
 
 
 def _flattened_by(

@@ -14,10 +14,10 @@ __all__ = ["rescue"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_LEAST_SHARE = 0.9  # of the area within FLAT_LIMITS
 
-
-def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[tuple[Ints, Floats]]:
+def rescue(
+    V: Floats, F: Ints, faces: Ints, method: Method, seed: int, least_share: float = 0.0
+) -> list[tuple[Ints, Floats]]:
     """Make sound charts of some faces, at whatever number.
 
     Parameters
@@ -27,6 +27,8 @@ def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[t
     faces : (k,) int64
     method : str
     seed : int
+    least_share : float
+        Of the area that must lie within FLAT_LIMITS. A conformal map may scale as it likes.
 
     Returns
     -------
@@ -44,7 +46,7 @@ def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[t
         G, kept = compact(F[part])
         n_parts, of_face = components(G)
         if n_parts == 1:
-            uv = _sound(V[kept], G, method)
+            uv = _sound(V[kept], G, method, least_share)
             if uv is not None:
                 done.append((part, uv))
                 continue
@@ -55,21 +57,13 @@ def rescue(V: Floats, F: Ints, faces: Ints, method: Method, seed: int) -> list[t
     return done
 
 
-def _sound(V: Floats, F: Ints, method: Method) -> Floats | None:
-    """Flatten faces; None where they are no disc, fold, overlap themselves, or hardly lie flat.
-
-    A conformal map may scale as it likes. SLIM may stop far from flat where it would overlap; ARAP
-    then often does not.
-    """
+def _sound(V: Floats, F: Ints, method: Method, least_share: float) -> Floats | None:
+    """Flatten faces; None where they are no disc, fold, overlap themselves or hardly lie flat."""
     if not is_disc(F):
         return None
-    by: tuple[Method, ...] = ("slim", "arap") if method == "slim" else (method,)
-    for one in by:
-        try:
-            uv = flatten(V, F, one)
-        except ChartError:
-            return None
-        flat = method == "lscm" or flat_share(V, F, uv) >= _LEAST_SHARE
-        if flat and border_is_simple(uv, F):
-            return uv
-    return None
+    try:
+        uv = flatten(V, F, method)
+    except ChartError:
+        return None
+    flat = method == "lscm" or len(F) == 1 or flat_share(V, F, uv) >= least_share
+    return uv if flat and border_is_simple(uv, F) else None

@@ -21,15 +21,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SKETCH = 2500  # faces on which charts are sought; more of them find no better charts
-_TRIES = 3
+_TRIES = 2
 _SKETCH_SHARE = 0.993  # a little more than is asked of the mesh, so that few charts need mending
 
 
 def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 2) -> Ints:
     """Label each face of one component with its chart.
 
-    Charts are sought on a sketch of the mesh, several times from other patches; the best of the
-    divisions is carried over, and mended where the finer surface does not bear it.
+    Charts are sought on a sketch of the mesh, more than once from other patches; each division is
+    carried over and mended where the finer surface does not bear it, and the best is taken.
 
     Parameters
     ----------
@@ -47,16 +47,17 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
     if judge.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
     W, G = proxy(V, F, _SKETCH)
-    sketch = Judge(W, G, _SKETCH_SHARE) if G is not F else judge
-    graph = dual(W, G)
-    found = [_search(W, G, graph, sketch, n_patches, seed + k, rounds) for k in range(_TRIES)]
-    label = min(found, key=lambda label: _cost(graph, label))
-    if G is F:
-        return polish(F, graph, label, judge)
-    graph = dual(V, F)
-    label = transfer_labels(V, F, W, G, label)
-    label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
-    return polish(F, graph, dissolve(V, F, graph, label, judge, seed), judge)
+    graph, light = dual(V, F), dual(W, G)
+    sketch = judge if G is F else Judge(W, G, _SKETCH_SHARE)
+    found = []
+    for n in range(_TRIES):
+        label = _search(W, G, light, sketch, n_patches, seed + n, rounds)
+        if G is not F:
+            label = transfer_labels(V, F, W, G, label)
+            label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
+            label = dissolve(V, F, graph, label, judge, seed)
+        found.append(polish(F, graph, label, judge))
+    return min(found, key=lambda label: _cost(graph, label))
 
 
 def _search(

@@ -38,7 +38,12 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     label : (m,) int64. A label may come out empty, or as no disc: the caller checks.
     """
     graph = dual(W, G)
-    share = _corner_shares(graph, G, diffusion(graph, _REACH)(label))
+    share = diffusion(graph, _REACH)(label)
+    own = np.eye(share.shape[1])[label]
+    inside, thin = _inside_and_thin(G, label)
+    share[inside] = own[inside]
+    share = _corner_shares(graph, G, share)
+    share[thin] = own[thin][:, None]
     best = share.argmax(2)
     sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
     clear = np.where(sure, best[:, 0], -1)
@@ -55,6 +60,21 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     if same_side.any():
         known[~same_side] = -1
     return tidy(F, known, np.linalg.norm(N, axis=1))
+
+
+def _inside_and_thin(G: Ints, label: Ints) -> tuple[Bools, Bools]:
+    """Mark faces that touch no other label, and those at strips that smoothing would wear away."""
+    n = int(G.max()) + 1
+    low, high = np.full(n, len(label)), np.full(n, -1)
+    np.minimum.at(low, G.ravel(), np.repeat(label, 3))
+    np.maximum.at(high, G.ravel(), np.repeat(label, 3))
+    inner = low == high
+    core = inner[G].any(1)
+    k = int(label.max()) + 1
+    near_core = np.isin(G * k + label[:, None], np.unique(G[core] * k + label[core][:, None])).any(1)
+    at_strip = np.zeros(n, bool)
+    at_strip[G[~near_core].ravel()] = True
+    return inner[G].all(1), at_strip[G].any(1)
 
 
 def _corner_shares(graph: Dual, G: Ints, share: Floats) -> Floats:

@@ -112,22 +112,21 @@ def _engraved(
 ) -> tuple[tuple[Floats, Ints], float] | None:
     """Engrave one piece; give it with the height of its text, or None where there is no place."""
     whole = body(V, F)
-    for height in np.linspace(lettering.height, lettering.least_height, _SIZES).tolist():
-        inset = min(_TAPER * lettering.depth, _SHARPEST * lettering.stroke)
-        outline = text_outline(label, height, lettering.stroke)
-        size = 2 * np.array(outline.bounds[2:])
-        for place in places(V, ground, size, lettering.stroke / 2 + lettering.depth):
-            patch = ground[place.ground]
-            least = float(wall[place.ground].min())
-            depth = min(lettering.depth, _MOST * least, least - min_wall)
-            carver = _carver(V, patch, place, outline, inset, depth)
-            rest = whole if carver is None else whole - carver
-            if carver is not None and sound(rest):
-                made = arrays(rest)
-                expected = depth * (outline.area - inset * outline.length / 2)
-                share = (whole.volume() - rest.volume()) / expected
-                if _AS_EXPECTED[0] < share < _AS_EXPECTED[1] and components(made[1])[0] == 1:
-                    return made, height
+    heights = np.linspace(lettering.height, lettering.least_height, _SIZES).tolist()
+    outlines = [text_outline(label, height, lettering.stroke) for height in heights]
+    sizes = [2 * np.array(outline.bounds[2:]) for outline in outlines]
+    inset = min(_TAPER * lettering.depth, _SHARPEST * lettering.stroke)
+    for i, place in places(V, ground, sizes, lettering.stroke / 2 + inset):
+        least = float(wall[place.ground].min())
+        depth = min(lettering.depth, _MOST * least, least - min_wall)
+        carver = _carver(V, ground[place.ground], place, outlines[i], inset, depth)
+        if carver is None or not sound(rest := whole - carver):
+            continue
+        expected = depth * (outlines[i].area - inset * outlines[i].length / 2)
+        made = arrays(rest)
+        share = (whole.volume() - rest.volume()) / expected
+        if _AS_EXPECTED[0] < share < _AS_EXPECTED[1] and components(made[1])[0] == 1:
+            return made, heights[i]
     return None
 
 

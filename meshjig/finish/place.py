@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +13,12 @@ from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Place", "places"]
 
-_STEEP = 0.75  # cosine; what leans more against the text's plane is no ground for it
+_LEAN = (0.9, 0.75)  # cosines; what leans more against the rectangle is no ground for it
 _SEEDS = 5
-_CANDIDATES = 60
+_NARROW = 0.4  # of a rectangle's height: the widest room need not be around the middle of a face
+_CANDIDATES = 40
 _TURNS = np.pi * np.arange(12) / 12
-_STEP = 0.35  # mm between the points that stand for a border
+_STEP = 0.4  # mm between the points that stand for a border
 _GRAIN = 1.0  # mm2 of ground for each place that is tried
 _UPRIGHT = 0.5  # of the height, that room is given up for a text that stands upright
 
@@ -27,45 +28,60 @@ class Place(NamedTuple):
 
     origin: Floats  # (3,)
     axes: Floats  # (3, 3), rows: along the text, up, towards the reader
-    ground: Ints  # faces, all of which lean less than 37 degrees against the plane
+    ground: Ints  # faces
 
 
-def places(V: Floats, F: Ints, size: Floats, margin: float) -> Iterator[Place]:
-    """Find places for a rectangle on a sheet, the best of each neighbourhood.
+def places(V: Floats, F: Ints, sizes: Sequence[Floats], margin: float) -> Iterator[tuple[int, Place]]:
+    """Find places for a rectangle on a sheet: flat ones first, then large ones.
 
     Parameters
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64, the sheet, facing the reader
-    size : (2,) float64, mm, of the rectangle
+    sizes : (2,) float64 each, mm, of the rectangle, the largest first
     margin : float, mm, from the rectangle to the border of the sheet, at least
 
     Yields
     ------
-    Place
-        Upright rather than upside down, whether y or z is up.
+    index of a size, Place
+        Upright rather than upside down, whether y or z is up. The ground leans against the plane by less
+        than 26 degrees, then by less than 42.
     """
     if not len(F):
         return
     F, kept = compact(F)
-    V = V[kept]
-    middle = V[F].mean(axis=1)
-    room = _distances(middle, _border_points(V, F))
-    lean = unit(vertex_normals(V, F)[F].mean(axis=1))
-    area = area_vectors(V, F)
-    least = size.min() / 2 + margin
-    for _ in range(_SEEDS):
-        seed = int(room.argmax())
-        if room[seed] < 0.7 * least:  # the widest place need not be around the middle of a face
-            return
-        near = np.linalg.norm(middle - middle[seed], axis=1) < np.linalg.norm(size) / 2
-        room[near] = 0.0
-        toward = unit(area[near].sum(axis=0))
-        ground = _connected(F, lean @ toward > _STEEP, seed)
-        if len(ground):
-            found = _widest(V, F[ground], toward, size, margin)
-            if found is not None:
-                yield Place(*found, ground)
+    sheet = _Sheet(V[kept], F)
+    for lean in _LEAN:
+        for i, size in enumerate(sizes):
+            for seed, near in sheet.wide_parts(size):
+                toward = unit(sheet.area[near].sum(axis=0))
+                ground = _connected(F, sheet.normal @ toward > lean, seed)
+                found = _widest(sheet, ground, toward, size, margin) if len(ground) else None
+                if found is not None:
+                    yield i, Place(*found, ground)
+
+
+class _Sheet:
+    """A sheet, and what all places need to know of it."""
+
+    def __init__(self, V: Floats, F: Ints) -> None:
+        self.V, self.F = V, F
+        self.middle = V[F].mean(axis=1)
+        self.normal = unit(vertex_normals(V, F)[F].mean(axis=1))
+        self.area = area_vectors(V, F)
+        self.border = border_halfedges(F)
+        self.room = _distances(self.middle, _points_along(V, F, self.border))
+
+    def wide_parts(self, size: Floats) -> Iterator[tuple[int, Bools]]:
+        """Give faces far from the border, and what a rectangle around them could cover."""
+        room = self.room.copy()
+        for _ in range(_SEEDS):
+            seed = int(room.argmax())
+            if room[seed] < _NARROW * size.min():
+                return
+            near = np.linalg.norm(self.middle - self.middle[seed], axis=1) < np.linalg.norm(size) / 2
+            room[near] = 0.0
+            yield seed, near
 
 
 def _connected(F: Ints, chosen: Bools, seed: int) -> Ints:
@@ -77,24 +93,30 @@ def _connected(F: Ints, chosen: Bools, seed: int) -> Ints:
     return faces[label == label[np.searchsorted(faces, seed)]]
 
 
-def _widest(V: Floats, F: Ints, toward: Floats, size: Floats, margin: float) -> tuple[Floats, Floats] | None:
+def _widest(
+    sheet: _Sheet, ground: Ints, toward: Floats, size: Floats, margin: float
+) -> tuple[Floats, Floats] | None:
     """Lay the rectangle where it is clearest of the border; give its middle and axes."""
     up = unit(np.array([0.0, 1.0, 1.0]) - (toward[1] + toward[2]) * toward)
     if not up.any():
         up = unit(np.cross(toward, [1.0, 0.0, 0.0]))
     axes = np.stack([np.cross(up, toward), up, toward])
-    flat = V @ axes.T
-    border = _border_points(flat[:, :2], F)
+    flat, F = sheet.V @ axes.T, sheet.F[ground]
+    edge = _points_along(flat[:, :2], F, border_halfedges(F))
+    rim = _points_along(flat[:, :2], sheet.F, sheet.border[np.isin(sheet.border // 3, ground)])
     spots = _spots(flat, F)
-    round_about = _distances(spots[:, :2], border)
-    fitting = np.flatnonzero(round_about > size.min() / 2 + margin)
-    if not len(fitting):
+    fitting = _distances(spots[:, :2], edge) > size.min() / 2
+    fitting &= _distances(spots[:, :2], rim) > size.min() / 2 + margin
+    if not fitting.any():
         return None
-    spots = spots[fitting[:: 1 + len(fitting) // _CANDIDATES]]
-    clear = _clearance(spots[:, :2], border, size / 2)
-    worth = np.where(clear > margin, clear + _UPRIGHT * size[1] * np.abs(np.cos(_TURNS)), -np.inf)
+    spots = spots[fitting]
+    spots = spots[:: 1 + len(spots) // _CANDIDATES]
+    clear = np.minimum(
+        _clearance(spots[:, :2], edge, size / 2), _clearance(spots[:, :2], rim, size / 2) - margin
+    )
+    worth = np.where(clear > 0, clear + _UPRIGHT * size[1] * np.abs(np.cos(_TURNS)), -np.inf)
     best, turn = np.unravel_index(int(worth.argmax()), worth.shape)
-    if clear[best, turn] <= margin:
+    if clear[best, turn] <= 0:
         return None
     angle = _TURNS[turn] if _TURNS[turn] <= np.pi / 2 else _TURNS[turn] - np.pi
     cos, sin = np.cos(angle), np.sin(angle)
@@ -103,21 +125,20 @@ def _widest(V: Floats, F: Ints, toward: Floats, size: Floats, margin: float) -> 
 
 
 def _clearance(spots: Floats, border: Floats, half: Floats) -> Floats:
-    """Give how far rectangles stay from the border, negative where they reach over it, (k, turns)."""
-    away = border[None] - spots[:, None]
+    """Give how far along its sides a rectangle could grow, negative where it reaches over; (k, turns)."""
+    if not len(border):
+        return np.full((len(spots), len(_TURNS)), np.inf)
+    x, y = (border[None, :, k] - spots[:, None, k] for k in range(2))
     clear = np.empty((len(spots), len(_TURNS)))
     for k, turn in enumerate(_TURNS):
         cos, sin = np.cos(turn), np.sin(turn)
-        x = np.abs(cos * away[..., 0] + sin * away[..., 1]) - half[0]
-        y = np.abs(cos * away[..., 1] - sin * away[..., 0]) - half[1]
-        outside = np.hypot(np.maximum(x, 0), np.maximum(y, 0))
-        clear[:, k] = (outside + np.minimum(np.maximum(x, y), 0)).min(axis=1)
+        along, across = np.abs(cos * x + sin * y) - half[0], np.abs(cos * y - sin * x) - half[1]
+        clear[:, k] = np.maximum(along, across).min(axis=1)
     return clear
 
 
-def _border_points(V: Floats, F: Ints) -> Floats:
-    """Put points along the border of a sheet, evenly enough; (k, d)."""
-    h = border_halfedges(F)
+def _points_along(V: Floats, F: Ints, h: Ints) -> Floats:
+    """Put points along half-edges, evenly enough; (k, d)."""
     a, b = V[F.ravel()[h]], V[F.ravel()[next_halfedge(h)]]
     count = np.maximum(np.ceil(np.linalg.norm(b - a, axis=1) / _STEP), 1).astype(np.int64)
     which = np.repeat(np.arange(len(h)), count)

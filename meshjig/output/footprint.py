@@ -11,6 +11,7 @@ from meshjig.types import Floats, Ints
 __all__ = ["convex_ring", "footprint", "least_rectangle", "size_at"]
 
 _SMOOTH = 0.05  # mm; outlines are drawn and packed no finer
+_SPECK = 0.01  # mm2; smaller holes are left out
 
 
 def footprint(V: Floats, F: Ints) -> Any:
@@ -35,7 +36,7 @@ def footprint(V: Floats, F: Ints) -> Any:
     if not outlines:
         return shapely.MultiPoint(V[:, :2]).convex_hull
     largest = max(outlines, key=lambda outline: outline.area)
-    holes = [hole.exterior for hole in outlines if hole is not largest and largest.contains(hole)]
+    holes = [hole.exterior for hole in outlines if not hole.exterior.is_ccw and hole.area > _SPECK]
     return shapely.Polygon(largest.exterior, holes).simplify(_SMOOTH)
 
 

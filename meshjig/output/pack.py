@@ -10,10 +10,11 @@ import numpy as np
 from meshjig.errors import OutputError
 from meshjig.output.footprint import convex_ring, least_rectangle, size_at
 from meshjig.output.printers import Plate
-from meshjig.types import Bools, Floats, Ints
+from meshjig.types import Floats, Ints
 
 __all__ = ["Spots", "pack"]
 
+_MANY = 600  # outlines; more are packed by one rule only, since time grows with their square
 _STEP = 1e-3  # mm; the packer counts whole steps, so that nothing is lost to rounding
 _TURNS = np.radians(np.arange(180.0))  # tried where the least rectangle does not fit, but a diagonal might
 
@@ -71,7 +72,8 @@ def _fitting_turns(rings: Sequence[Floats], plate: Plate, gap: float) -> Floats:
     for i, ring in enumerate(rings):
         choices = np.concatenate([turns[i : i + 1], _TURNS])
         size = size_at(ring, choices)
-        fits: Bools = (np.sort(size, axis=1) <= room).all(axis=1)
+        fits = np.sort(size, axis=1)[:, 0] <= room[0]
+        fits &= size.max(axis=1) <= room[1]
         if not fits.any():
             raise OutputError(f"outline {i + 1} fits no plate of {plate}", ids=[i])
         if not fits[0]:
@@ -85,16 +87,17 @@ def _packings(steps: Ints, bed: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
     from rectpack import guillotine, maxrects, packer
 
     rules = (maxrects.MaxRectsBaf, maxrects.MaxRectsBssf, guillotine.GuillotineBafMinas)
-    for rule in rules:
-        for order in (packer.SORT_SSIDE, packer.SORT_LSIDE, packer.SORT_AREA):
-            press = rectpack.PackerBFF(pack_algo=rule, sort_algo=order, rotation=True)
-            for i, (width, depth) in enumerate(steps.tolist()):
-                press.add_rect(width, depth, rid=i)
-            press.add_bin(*bed.tolist(), count=float("inf"))
-            press.pack()
-            rows = np.array(press.rect_list(), np.int64).reshape(-1, 6)  # plate, x, y, width, depth, id
-            rows = rows[np.argsort(rows[:, 5])]
-            yield rows[:, 0], rows[:, 1:3], rows[:, 3] != steps[:, 0]
+    orders = (packer.SORT_SSIDE, packer.SORT_LSIDE, packer.SORT_AREA)
+    presses = [rectpack.PackerBFF(pack_algo=rule, sort_algo=order) for rule in rules for order in orders]
+    presses += [rectpack.PackerGlobal(pack_algo=rule) for rule in rules]
+    for press in presses if len(steps) <= _MANY else presses[-4:-3]:
+        for i, (width, depth) in enumerate(steps.tolist()):
+            press.add_rect(width, depth, rid=i)
+        press.add_bin(*bed.tolist(), count=float("inf"))
+        press.pack()
+        rows = np.array(press.rect_list(), np.int64).reshape(-1, 6)  # plate, x, y, width, depth, id
+        rows = rows[np.argsort(rows[:, 5])]
+        yield rows[:, 0], rows[:, 1:3], rows[:, 3] != steps[:, 0]
 
 
 def _rank(packing: tuple[Ints, Ints, Ints]) -> tuple[int, int]:

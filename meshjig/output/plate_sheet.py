@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -98,7 +99,7 @@ def _write_svg(
         parts.append(
             f'<path d="{data}" fill="{_PIECE}" fill-rule="evenodd" stroke="{_INK}" stroke-width="0.3"/>'
             f'<text x="{x:.2f}" y="{y + 0.36 * piece.height:.2f}" font-size="{piece.height:.2f}" '
-            f'text-anchor="middle">{piece.text}</text>'
+            f'text-anchor="middle">{escape(piece.text)}</text>'
         )
     width, height = size.tolist()
     path.write_text(

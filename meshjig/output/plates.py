@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.errors import OutputError
-from meshjig.output.footprint import footprint
+from meshjig.output.footprint import convex_ring, footprint, least_rectangle, size_at
 from meshjig.output.pack import Spots, pack
 from meshjig.output.piece import Piece
 from meshjig.output.pose import Pose, lying_pose
@@ -155,7 +155,9 @@ def _laid(piece: Piece, V: Floats, pose: Pose, shadow: Any, turn: float, shift: 
 
 
 def _too_large(piece: Piece, V: Floats, plate: Plate) -> OutputError:
-    size = " x ".join(f"{side:.0f}" for side in np.ptp(V, axis=0))
+    ring = convex_ring(V[:, :2])
+    sides = *size_at(ring, np.array([least_rectangle(ring)]))[0], V[:, 2].max()
+    size = " x ".join(f"{side:.0f}" for side in sides)
     return OutputError(
         f"{piece.name} ({size} mm) fits no plate of {plate}",
         hint="use a larger --plate, or ask for more pieces",

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.measure import area_vectors, barycentric, unit
-from meshjig.types import Bools, Floats, Ints
+from meshjig.types import Floats, Ints
 
 __all__ = ["STEEP", "Pose", "lying_pose"]
 
@@ -15,6 +15,8 @@ STEEP = 45.0  # degrees from the horizontal; what leans farther over needs no su
 ON_PLATE = 0.05  # mm above the plate; lower is held by the plate itself
 FLAT = 0.8  # of the largest shadow of all stable poses; what casts less stands on an edge
 LOW = 0.6  # of the largest extent; higher poses are taken only where none is lower
+NEAR = 10.0  # degrees; of poses that differ less only the most stable one is tried
+MOST = 64  # poses tried; a ball rests on any of its faces
 FACE_UP = 0.1  # share of the surface that may be supported more to have the outer side up
 
 
@@ -49,7 +51,8 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
 
     Notes
     -----
-    O(n log n) for the hull, and O(m k) for k stable poses, of which there are rarely more than ten.
+    O(n log n) for the hull, and O(m k) for k stable poses, of which there are rarely more than ten, and 64
+    at most.
     """
     from scipy.spatial import ConvexHull
 
@@ -76,9 +79,11 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
 
 
 def _extent(points: Floats) -> float:
-    from scipy.spatial.distance import pdist
+    """Give the largest distance, as far as it starts from a point that is outermost in some direction."""
+    from scipy.spatial.distance import cdist
 
-    return float(pdist(points).max())
+    ways = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), -1).reshape(-1, 3)
+    return float(cdist(points[(points @ ways.T).argmax(axis=0)], points).max())
 
 
 def _centre_of_mass(V: Floats, F: Ints) -> Floats:
@@ -93,19 +98,25 @@ def _centre_of_mass(V: Floats, F: Ints) -> Floats:
 
 
 def _stable(V: Floats, hull: object, centre: Floats) -> Floats:
-    """Give the directions that point down when the body rests on a face of its hull, (k, 3)."""
+    """Give the directions that point down in stable poses, (k, 3), the most stable first."""
     simplices: Ints = hull.simplices.astype(np.int64)  # type: ignore[attr-defined]
     planes: Floats = hull.equations  # type: ignore[attr-defined]
     distance = -(planes[:, :3] @ centre + planes[:, 3])
     foot = centre + distance[:, None] * planes[:, :3]
     bary = barycentric(V, simplices, np.arange(len(simplices)), foot)
-    stable = _above(bary)
+    stable = bary.min(axis=1) >= -1e-9
     stable[distance.argmin()] = True  # no body tips off the face nearest to its centre
-    return np.unique(np.round(planes[stable, :3], 6), axis=0)
+    faces = np.flatnonzero(stable)
+    return _distinct(planes[faces[np.argsort(distance[faces], kind="stable")], :3])
 
 
-def _above(bary: Floats) -> Bools:
-    return bary.min(axis=1) >= -1e-9
+def _distinct(directions: Floats) -> Floats:
+    """Keep of ordered directions those that are not near one kept before, and not too many."""
+    kept: list[Floats] = []
+    while len(directions) and len(kept) < MOST:
+        kept.append(directions[0])
+        directions = directions[directions @ directions[0] < np.cos(np.radians(NEAR))]
+    return np.array(kept)
 
 
 def _overhang(V: Floats, F: Ints, area: Floats, facing: Floats, down: Floats, plate: Floats) -> Floats:

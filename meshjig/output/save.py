@@ -25,6 +25,7 @@ def save_puzzle(
     plane_curves: Sequence[Floats] = (),
     space_curves: Sequence[Floats] = (),
     preview: bool = True,
+    viewer: bool = True,
 ) -> dict[str, Any]:
     """Write a puzzle to a folder that appears whole or not at all.
 
@@ -38,6 +39,7 @@ def save_puzzle(
     plane_curves : sequence of (k, 2) float64, mm; cut curves for SVG
     space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
     preview : bool, also draw preview.png
+    viewer : bool, also write viewer.html
 
     Returns
     -------
@@ -63,6 +65,11 @@ def save_puzzle(
 
             with _lap(seconds, "preview"):
                 draw(pieces, folder / "preview.png")
+        if viewer:
+            from meshjig.output.viewer import FILE, write_viewer
+
+            with _lap(seconds, "viewer"):
+                write_viewer(folder / FILE, pieces, report)
         from meshjig.output.report import write_report
 
         written = {**report, "timings_s": seconds}

@@ -43,21 +43,20 @@ def write_turntable(path: Path, pieces: Sequence[Piece], frames: int = 36, size:
             hint="use 2 frames or more, of 16 pixels or more",
         )
     from PIL import Image
+    from scipy.spatial import ConvexHull
 
     V, F, _, piece_of_face = together(pieces)
     tint = [np.tile(p.colour, (len(p.F), 1)) if p.coat is None else p.coat.rgb.mean(axis=1) for p in pieces]
     scene = scene_of(V, F, np.concatenate(tint), piece_of_face)
     up = guess_up(V, F)
-    views = [view_of(V, up, 30 + 360 * k / frames, _ELEVATION) for k in range(frames)]
+    outline = V[ConvexHull(V).vertices]
+    views = [view_of(outline, up, 30 + 360 * k / frames, _ELEVATION) for k in range(frames)]
     widest = 1.06 * max(view.half for view in views)
     still = np.mean([view.centre for view in views], axis=0)
-    pictures = [
-        Image.fromarray(render(scene, View(view.eye, view.axes, still, widest), size)) for view in views
+    pictures = [render(scene, View(view.eye, view.axes, still, widest), size) for view in views]
+    some = np.hstack(pictures[:: max(1, frames // 4)])
+    palette = Image.fromarray(some).quantize(256, method=Image.Quantize.MEDIANCUT)
+    first, *rest = [
+        Image.fromarray(picture).quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures
     ]
-    colours = _sheet(pictures[:: max(1, frames // 4)]).quantize(255, method=Image.Quantize.FASTOCTREE)
-    first, *rest = [picture.quantize(palette=colours, dither=Image.Dither.NONE) for picture in pictures]
     first.save(path, save_all=True, append_images=rest, duration=_ONCE_AROUND // frames, loop=0)
-
-
-def _sheet(pictures):  # type: ignore[no-untyped-def]
-    return pictures

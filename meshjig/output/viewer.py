@@ -124,6 +124,8 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
     V, F, piece_of_vertex, _ = together(pieces)
     up = guess_up(V, F)
     view = view_of(V, up, *_FRONT)
+    off = V - (V.min(axis=0) + V.max(axis=0)) / 2
+    height = off @ up
     assembly = assembly_of(pieces, report)
     listed = report.get("pieces", ())
     told = listed if len(listed) == len(pieces) else [{}] * len(pieces)
@@ -131,6 +133,8 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
         "up": up,
         "eye": -view.axes[2],
         "radius": float(np.linalg.norm(np.ptp(V, axis=0))) / 2,
+        "wide": float(np.linalg.norm(off - height[:, None] * up, axis=1).max()),
+        "high": float(np.abs(height).max()),
         "steps": assembly.steps,
         "verified": assembly.verified,
         "picture": _picture(pieces),

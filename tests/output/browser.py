@@ -51,8 +51,10 @@ class Browser:
         with open(Path(self._profile) / "stderr", "wb") as errors:
             # a shell puts the pipes where Chromium expects them, at 3 and 4
             self._process = subprocess.Popen(
-                ["sh", "-c", f'exec "$0" "$@" 3</dev/fd/{read_end} 4>/dev/fd/{write_end}', find_browser()]
-                + [*_FLAGS, f"--user-data-dir={self._profile}", "about:blank"],
+                [
+                    *("sh", "-c", f'exec "$0" "$@" 3</dev/fd/{read_end} 4>/dev/fd/{write_end}'),
+                    *(str(find_browser()), *_FLAGS, f"--user-data-dir={self._profile}", "about:blank"),
+                ],
                 stdin=subprocess.DEVNULL,
                 stdout=errors,
                 stderr=errors,
@@ -173,5 +175,7 @@ class Browser:
     @property
     def asked_for(self) -> list[str]:
         """What the page fetched, by the first letters of the address."""
-        sent = [e["params"]["request"]["url"] for e in self.said if e.get("method") == "Network.requestWillBeSent"]
+        sent = [
+            e["params"]["request"]["url"] for e in self.said if e.get("method") == "Network.requestWillBeSent"
+        ]
         return [url.split(":")[0] for url in sent]

@@ -64,8 +64,9 @@ class Viewer {
   }
 
   explode(amount) {
+    this.state.amount = amount;
     this.stage.explode(amount);
-    this.set({ amount });
+    this.panel.show(this.state, this.ways[this.state.colour]);
   }
 
   explodeTo(goal) {
@@ -186,7 +187,7 @@ async function start() {
   const data = JSON.parse($("data").textContent);
   const [mesh, image] = await Promise.all([unpackMesh($("mesh").textContent, data.mesh), pictureOf(data.picture)]);
   const canvas = $("view"), stage = new Stage(canvas, mesh, data, image);
-  const viewer = new Viewer(stage, data);
+  const viewer = (window.viewer = new Viewer(stage, data));
   viewer.panel.fold(innerWidth <= NARROW);
   $("message").textContent = "";
   new ResizeObserver(() => stage.resize()).observe(canvas.parentElement);

@@ -73,8 +73,8 @@ function looks(bytes, n, kind) {
   if (kind === "uv") {
     const uv = new Uint16Array(2 * n);
     for (let i = 0; i < n; i++) {
-      uv[2 * i] = bytes[i] * 256 + bytes[n + i];
-      uv[2 * i + 1] = bytes[2 * n + i] * 256 + bytes[3 * n + i];
+      uv[2 * i] = bytes[i] + 256 * bytes[2 * n + i];
+      uv[2 * i + 1] = bytes[n + i] + 256 * bytes[3 * n + i];
     }
     return uv;
   }

@@ -77,14 +77,12 @@ class Panel {
     if (piece && card.hidden && innerWidth <= NARROW) this.fold(true);
     card.hidden = !piece;
     if (!piece) return;
-    const focused = card.contains(document.activeElement) && document.activeElement;
-    const at = focused && (focused.value || focused.className);
     const chips = piece.neighbours.map((id) => `<button data-piece="${id}" aria-label="Piece ${id}">${id}</button>`);
     const choices = Object.entries(SCOPES).map(([value, name]) => {
       const checked = value === scope ? "checked" : "";
       return `<label><input type="radio" name="scope" value="${value}" ${checked}><span>${name}</span></label>`;
     });
-    card.innerHTML = `
+    const content = `
       <h2><i style="background:${css(new THREE.Color().fromArray(way.tint(piece)))}"></i>Piece ${piece.id}
         <button class="close" aria-label="Let go" title="Let go (Esc)">${CLOSE}</button></h2>
       <dl>${piece.plate ? `<dt>Plate</dt><dd>${piece.plate}</dd>` : ""}
@@ -92,7 +90,11 @@ class Panel {
         <dt>Step</dt><dd>${piece.step}</dd>
         <dt>Touches</dt><dd class="chips">${chips.join("") || "nothing"}</dd></dl>
       <div class="choice" role="radiogroup" aria-label="Show">${choices.join("")}</div>`;
-    if (at) card.querySelector(`[value="${at}"], .${at.replace(/\W/g, "-") || "close"}`)?.focus();
+    if (content === this.content) return; // what stays is not read out again
+    this.content = content;
+    const focus = !card.contains(document.activeElement) ? null : document.activeElement.name ? `[value=${scope}]` : ".close";
+    card.innerHTML = content;
+    if (focus) card.querySelector(focus).focus();
   }
 
   miss(text) {

@@ -91,15 +91,18 @@ class Stage {
     if (!width || !height) return;
     this.renderer.setPixelRatio(this.byProcessor ? 1 : Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
+    const before = this.distance;
     this.camera.aspect = width / height;
+    this.zoom(this.distance / before);
     this.draw(false);
   }
 
   // How far the eye must be for the whole model to be in the frame.
   get distance() {
-    const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
-    return ((0.92 * this.data.radius) / Math.sin(narrow)) * (1 + this.amount);
+    const { wide, high } = this.data;
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360);
+    const far = Math.max((high + 0.3 * wide) / slope, wide / (slope * this.camera.aspect));
+    return (1.06 * far + wide) * (1 + this.amount);
   }
 
   home(gently = true) {
