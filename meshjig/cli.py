@@ -158,6 +158,30 @@ def check(
 
 
 @app.command()
+@takes_options("process", "thickness", "clearance", "min_neck")
+def coupon(
+    flags: dict[str, Any],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="where the coupon goes")
+    ] = Path("meshjig-coupon"),
+    config: Config = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Make a set of test knobs that tells which clearance your printer needs."""
+    with sentences(verbose, quiet):
+        from meshjig.coupon import save_coupon
+
+        report = save_coupon(output, _options(config, flags))
+        if as_json:
+            print((output / "report.json").read_text(encoding="utf-8"))
+        elif not quiet:
+            say(f"{len(report['pieces'])} tiles in {output}")
+            say(report["how_to"])
+
+
+@app.command()
 def view(
     directory: Annotated[Path, typer.Argument(metavar="DIR", help="a folder that meshjig made")],
     verbose: Verbose = False,

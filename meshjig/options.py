@@ -83,6 +83,13 @@ class Options(BaseModel):
     format: tuple[Literal["stl", "ply", "3mf", "obj", "glb"], ...] = Field(
         ("stl", "3mf"), min_length=1, description="file formats to write, separated by commas"
     )
+    plate: str | None = Field(
+        None, description="also lay the pieces on plates: WIDTHxDEPTH in mm, or a printer such as prusa-mk4"
+    )
+    nest: Literal["fast", "tight"] = Field("fast", description="how plates are packed; tight needs spyrrow")
+    explode: FiniteFloat = Field(
+        0.6, ge=0, description="how far apart the exploded preview is, in distances from the middle"
+    )
     curves: bool = Field(
         False, description="also write the cut curves: SVG in the plane, OBJ and DXF in space"
     )

@@ -14,11 +14,12 @@ from meshjig.check.interlock import interlock
 from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
 from meshjig.errors import OptionError
 from meshjig.layout import Layout, Parts
-from meshjig.measure import face_areas
+from meshjig.measure import area_vectors, face_areas, sums
 from meshjig.options import Options
 from meshjig.output.coat import coats
 from meshjig.output.colours import colours
 from meshjig.output.printable import printable
+from meshjig.output.printers import parse_plate
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.report import assemble_report
@@ -61,8 +62,7 @@ def make_puzzle(
         One of its children; the sentence says what is wrong, where, and what to do.
     """
     options = options or Options.of(**keywords)
-    if options.layout == "tiles":
-        get_family(options.tile, options.seed)  # refuses what it does not know before anything is done
+    _refuse_unknown_names(options)
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
@@ -103,22 +103,42 @@ def make_puzzle(
     if options.unique:
         report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
-    pieces = _named(solids, names, colours(len(solids), locks.pairs), scan, options)
+    tints, outward = colours(len(solids), locks.pairs), _outer_normals(layout)
+    pieces = _named(solids, names, tints, outward, scan, options)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
     return Puzzle(pieces, report, curves)
 
 
 def _named(
-    solids: list[tuple[Floats, Ints]], names: list[str], tints: Floats, scan: Scan, options: Options
+    solids: list[tuple[Floats, Ints]],
+    names: list[str],
+    tints: Floats,
+    outward: Floats,
+    scan: Scan,
+    options: Options,
 ) -> list[Piece]:
     """Give solids their names, their colours, and the picture of the scan where it has one."""
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
     dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
-        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None)
+        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
         for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
     ]
+
+
+def _refuse_unknown_names(options: Options) -> None:
+    """Refuse a tiling or a printer that nobody knows before any work is done."""
+    if options.layout == "tiles":
+        get_family(options.tile, options.seed)
+    if options.plate is not None:
+        parse_plate(options.plate)
+
+
+def _outer_normals(layout: Layout) -> Floats:
+    """Give the area vector of every piece's outer sheet, (p, 3), mm2."""
+    A, n = area_vectors(layout.cut.V, layout.cut.F) / 2, layout.stitching.n_pieces
+    return np.stack([sums(layout.piece_of_face, A[:, k], n) for k in range(3)], 1)
 
 
 def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None, Ints]:

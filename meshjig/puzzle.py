@@ -76,16 +76,18 @@ class Puzzle:
         OutputError
             The folder can't be written, or holds something else.
         """
+        asked = self.report["options"]
         self.report.update(
             save_puzzle(
                 directory,
                 self.pieces,
                 self.report,
-                formats=formats if formats is not None else self.report["options"]["format"],
+                formats=formats if formats is not None else asked["format"],
                 plane_curves=self.curves.plane,
                 space_curves=self.curves.space,
                 preview=preview,
                 viewer=viewer,
+                **{key: asked[key] for key in ("plate", "nest", "explode") if key in asked},
             )
         )
         return Path(directory)

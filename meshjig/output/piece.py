@@ -20,3 +20,4 @@ class Piece:
     F: Ints  # (m, 3)
     colour: tuple[float, float, float]  # red, green, blue as a screen shows them, 0 to 1
     coat: Coat | None = field(default=None, kw_only=True)  # where the scan had a picture
+    outer_normal: Floats | None = field(default=None, kw_only=True)  # (3,), mean of the outer sheet, mm2

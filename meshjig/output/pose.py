@@ -11,7 +11,7 @@ from meshjig.types import Floats, Ints
 
 __all__ = ["STEEP", "Pose", "lying_pose"]
 
-STEEP = 45.0  # degrees from the horizontal; what leans farther over needs no support
+STEEP = 45.0  # degrees from the horizontal; undersides as steep as that need no support
 ON_PLATE = 0.05  # mm above the plate; lower is held by the plate itself
 FLAT = 0.8  # of the largest shadow of all stable poses; what casts less stands on an edge
 LOW = 0.6  # of the largest extent; higher poses are taken only where none is lower
@@ -43,7 +43,7 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
     V : (n, 3) float64, mm
     F : (m, 3) int64, closed and oriented outward
     outer_normal : (3,) float64, optional
-        The direction that the piece's outer side faces; length does not matter.
+        The direction that the piece's outer side faces, of any length; zero where that is not known.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
     height = np.ptp(depth, axis=0)
     overhang = _overhang(V, F, area, facing, down, depth.max(axis=0)) / area.sum()
     cost = overhang + height / extent
-    up = None if outer_normal is None else -down @ unit(outer_normal)
+    up = None if outer_normal is None or not outer_normal.any() else -down @ unit(outer_normal)
     if up is not None:
         cost -= FACE_UP * (up > 0)
     flat = shadow >= FLAT * shadow.max()

@@ -4,7 +4,9 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
+
+import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.output.folder import replace_folder
@@ -26,6 +28,9 @@ def save_puzzle(
     space_curves: Sequence[Floats] = (),
     preview: bool = True,
     viewer: bool = True,
+    plate: str | None = None,
+    nest: Literal["fast", "tight"] = "fast",
+    explode: float = 0.6,
 ) -> dict[str, Any]:
     """Write a puzzle to a folder that appears whole or not at all.
 
@@ -40,6 +45,8 @@ def save_puzzle(
     space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
     preview : bool, also draw preview.png
     viewer : bool, also write viewer.html
+    plate, nest : str, also lay the pieces on plates, see `write_plates`
+    explode : float, how far apart the exploded pieces of the preview are
 
     Returns
     -------
@@ -64,17 +71,36 @@ def save_puzzle(
             from meshjig.output.preview import preview as draw
 
             with _lap(seconds, "preview"):
-                draw(pieces, folder / "preview.png")
+                draw(pieces, folder / "preview.png", apart=explode)
+        plates: dict[str, int] | None = None
+        if plate is not None:
+            from meshjig.output.plates import write_plates
+            from meshjig.output.printers import parse_plate
+
+            with _lap(seconds, "plates"):
+                laid = write_plates(
+                    folder, pieces, parse_plate(plate), nest=nest, outer_normals=_normals(pieces)
+                )
+            plates = {fact["name"]: fact["plate"] for fact in laid}
+            report = {**report, "plates": laid}
         if viewer:
             from meshjig.output.viewer import FILE, write_viewer
 
             with _lap(seconds, "viewer"):
-                write_viewer(folder / FILE, pieces, report)
+                write_viewer(folder / FILE, pieces, report, plates=plates)
         from meshjig.output.report import write_report
 
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written
+
+
+def _normals(pieces: Sequence[Piece]) -> Floats | None:
+    """Give the outer normals of all pieces, zero where one is not known; None where none is."""
+    if all(piece.outer_normal is None for piece in pieces):
+        return None
+    zero: Floats = np.zeros(3)
+    return np.array([zero if piece.outer_normal is None else piece.outer_normal for piece in pieces])
 
 
 @contextmanager

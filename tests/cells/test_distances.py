@@ -64,9 +64,9 @@ def test_vertices_out_of_reach_still_have_their_nearest_source():
 
 def test_a_way_over_a_crease_costs_more_where_asked():
     V, F = creased_box(3000)
-    top, side, other = (
-        int(np.linalg.norm(V - p, axis=1).argmin()) for p in ([0, 0, 50], [50, 0, 0], [20, 20, 50])
-    )
+    places = np.array([[0, 0, 50], [50, 0, 0], [20, 20, 50]])
+    top, side, other = np.linalg.norm(V[:, None] - places, axis=2).argmin(0).tolist()
+    graphs = [surface_graph(V, F, edges(F), bend) for bend in (0.0, 30.0)]
     plain, bent = (within(V, graph, np.array([top]), 200.0)[1][:, 0] for graph in graphs)
     assert bent[other] == pytest.approx(plain[other])
     assert bent[side] - plain[side] == pytest.approx(30 * np.radians(90 - 2 * 8), rel=0.02)

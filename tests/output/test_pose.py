@@ -66,6 +66,7 @@ def test_the_outer_side_comes_up_when_it_costs_little(name, outer):
 
 def test_what_is_not_known_is_not_claimed():
     assert lying_pose(*TILES["dome"]).outer_up is None
+    assert lying_pose(*TILES["dome"], np.zeros(3)).outer_up is None
 
 
 def test_a_sphere_needs_support_around_its_lowest_point_only():
