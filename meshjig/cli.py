@@ -238,7 +238,12 @@ def _options(config: Path | None, flags: dict[str, Any]) -> Options:
             given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
             if isinstance(given.get("process"), dict):  # [process.NAME], chosen by --process
                 given["processes"] = given.pop("process")
-        return Options.of(**given | flags)
+        options = Options.of(**given | flags)
+        if {"tile", "plate"} & (given.keys() | flags.keys()):
+            from meshjig.refusals import refuse_unknown_names
+
+            refuse_unknown_names(options)
+        return options
     except OptionError as error:
         say(f"meshjig: {error}")
         raise typer.Exit(USAGE) from None

@@ -19,15 +19,13 @@ from meshjig.options import Options
 from meshjig.output.coat import coats
 from meshjig.output.colours import colours
 from meshjig.output.printable import printable
-from meshjig.output.printers import parse_plate
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
+from meshjig.refusals import refuse_too_small_pieces, refuse_unknown_names
 from meshjig.report import assemble_report
 from meshjig.scan import refine_long_edges, self_crossings
-from meshjig.smallest import refuse_too_small_pieces
 from meshjig.solid import Shell, kerf, shell
 from meshjig.tiled import tile_layout
-from meshjig.tiling.registry import get_family
 from meshjig.topology import border_halfedges, components
 from meshjig.types import Floats, Ints, Mesh, Scan
 from meshjig.unique import LEAST_DIFFERENCE, clashes
@@ -62,7 +60,7 @@ def make_puzzle(
         One of its children; the sentence says what is wrong, where, and what to do.
     """
     options = options or Options.of(**keywords)
-    _refuse_unknown_names(options)
+    refuse_unknown_names(options)
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
@@ -125,14 +123,6 @@ def _named(
         Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
         for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
     ]
-
-
-def _refuse_unknown_names(options: Options) -> None:
-    """Refuse a tiling or a printer that nobody knows before any work is done."""
-    if options.layout == "tiles":
-        get_family(options.tile, options.seed)
-    if options.plate is not None:
-        parse_plate(options.plate)
 
 
 def _outer_normals(layout: Layout) -> Floats:

@@ -105,7 +105,7 @@ def tell_notes(report: dict[str, Any]) -> None:
     """Say what is no broken promise, but what a maker should know."""
     made, options = len(report["pieces"]), report["options"]
     if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
-        say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit the charts of this model")
+        say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit this model")
     if report["exempt"]:
         n = len({name for names in report["exempt"].values() for name in names})
         say(f"meshjig: note: the mesh crosses itself, and so do {n} pieces: --resurface rebuilds its surface")

@@ -243,7 +243,7 @@ def test_wrong_usage_exits_with_2(flags, ball):
 
 def test_help_names_every_command():
     said = run("--help")
-    assert all(command in said.stdout for command in ("make", "info", "check"))
+    assert all(command in said.stdout for command in ("make", "info", "check", "tiles", "view", "coupon"))
     assert run("--version").stdout.strip()
 
 
@@ -273,4 +273,4 @@ def test_an_interrupt_ends_with_a_sentence_and_leaves_nothing(ball, tmp_path, wa
 
 
 def test_a_closed_surface_in_one_piece_is_refused(ball, tmp_path):
-    assert_one_sentence(run("make", ball, "-o", tmp_path / "out", "--pieces", 1), "hollow")
+    assert_one_sentence(run("make", ball, "-o", tmp_path / "out", "--pieces", 1, "--layout", "tiles"), "hollow")

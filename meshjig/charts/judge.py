@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SPREAD = 0.62  # log scale; regions above it hardly ever pass the flattening
-_ITERATIONS = 4  # of ARAP; more hardly ever change the verdict
+_ITERATIONS = 3  # of ARAP; more hardly ever change the verdict
 
 
 class Judge:
@@ -61,15 +61,20 @@ class Judge:
             uv = lscm(V, region.F, region.loop)
         except ChartError:
             uv = tutte(V, region.F)
-        return _is_flat(V, region, area, uv, self._least_share) or _is_flat(
-            V, region, area, arap(V, region.F, uv, _ITERATIONS), self._least_share
-        )
+        if not ring_is_simple(uv[region.loop]):  # hardly ever does ARAP draw it apart
+            return False
+        if _share(V, region, area, uv) >= self._least_share:
+            return True
+        uv = arap(V, region.F, uv, _ITERATIONS)
+        return _share(V, region, area, uv) >= self._least_share and ring_is_simple(uv[region.loop])
 
 
-def _is_flat(V: Floats, region: Region, area: Floats, uv: Floats, least_share: float) -> bool:
+def _share(V: Floats, region: Region, area: Floats, uv: Floats) -> float:
+    """Give the share of the area within FLAT_LIMITS at a mean stretch of 1; 0 where a face is mirrored."""
     s = singular_values(V, region.F, uv)
     if not s[:, 1].min(initial=np.inf) > 0:  # mirrored, or not finite
-        return False
-    s = s / np.exp((area * np.log(s.prod(1))).sum() / max(area.sum(), 1e-300) / 2)
+        return 0.0
+    total = max(float(area.sum()), 1e-300)
+    s = s / np.exp((area * np.log(s.prod(1))).sum() / total / 2)
     good = (s[:, 1] >= FLAT_LIMITS[0]) & (s[:, 0] <= FLAT_LIMITS[1])
-    return bool(area[good].sum() >= least_share * area.sum()) and ring_is_simple(uv[region.loop])
+    return float(area[good].sum() / total)

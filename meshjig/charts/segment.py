@@ -56,8 +56,8 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
             label = transfer_labels(V, F, W, G, label)
             label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
             label = dissolve(V, F, graph, label, judge, seed)
-        found.append(polish(F, graph, label, judge))
-    return min(found, key=lambda label: _cost(graph, label))
+        found.append(label)
+    return polish(F, graph, min(found, key=lambda label: _cost(graph, label)), judge)
 
 
 def _search(

@@ -47,16 +47,16 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
     lack = np.where(np.abs(clearance - depth) < reach, clearance - depth, 0.0)
     V = _unfolded(V, F, lack[:, None] * away)
     gone = np.zeros(len(V))
-    V, least = _given_way(V, gone, away, reach, clearance, _Room([np.arange(len(V))[:, None], E, F], F, around, reach))
+    V, least = _given_way(V, F, gone, away, reach, clearance, _Room([np.arange(len(V))[:, None], E, F], F, around, reach))
     hot = gone > 0
     E, G = E[hot[E].any(axis=1)], F[hot[F].any(axis=1)]
     finer = [E[:, ends] for ends in _ON_EDGE] + [G[:, corners] for corners in _ON_FACE]
-    V, fine = _given_way(V, gone, away, reach, clearance, _Room([*finer, E, G], F, around, reach))
+    V, fine = _given_way(V, F, gone, away, reach, clearance, _Room([*finer, E, G], F, around, reach))
     return V, float(np.minimum(np.where(hot, np.inf, least), fine).min())
 
 
 def _given_way(
-    V: Floats, gone: Floats, away: Floats, reach: float, clearance: float, room: _Room
+    V: Floats, F: Ints, gone: Floats, away: Floats, reach: float, clearance: float, room: _Room
 ) -> tuple[Floats, Floats]:
     """Move vertices off while there is not enough room; add to how far each has gone, and give its room."""
     moved = np.ones(len(V), bool)
@@ -68,8 +68,10 @@ def _given_way(
         if not moved.any():
             break
         step[~moved] = 0.0
-        V = V + step[:, None] * away
-        gone += step
+        went = _unfolded(V, F, step[:, None] * away)
+        moved = (went != V).any(axis=1)
+        V = went
+        gone += np.where(moved, step, 0.0)
     return V, least
 
 

@@ -66,15 +66,18 @@ def make_core(
     About 3 s for 100,000 faces.
     """
     V, F, closed = closed_over(outer.V + D, outer.F)
-    around = Depth(V, F)
-    cell = float(np.ptp(V, axis=0).max()) / _CELLS
-    thinnest = _THINNEST * wall
-    made, G = inset_surface(around, clearance, cell, thinnest)
-    if not len(G):
-        raise _no_room()
-    n, label = components(G)
-    G, kept = compact(G[label == np.bincount(label, face_areas(made, G)).argmax()])
-    made, least = cleared(made[kept], G, around, clearance)
+    cell, thinnest = float(np.ptp(V, axis=0).max()) / _CELLS, _THINNEST * wall
+    for crossed in (False, True):
+        around = Depth(V, F, crossed=crossed)
+        made, G = inset_surface(around, clearance, cell, thinnest)
+        if not len(G):
+            raise _no_room()
+        n, label = components(G)
+        G, kept = compact(G[label == np.bincount(label, face_areas(made, G)).argmax()])
+        made = made[kept]
+        if sound(body(made, G)):
+            break
+    made, least = cleared(made, G, around, clearance)
     whole = body(made, G)
     if not sound(whole):
         raise _no_room()

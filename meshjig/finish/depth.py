@@ -18,20 +18,23 @@ class Depth:
     """Distances to a closed surface, positive inside.
 
     The sign is that of the nearest face, or of the mean of those that meet at the nearest edge or corner,
-    each with its angle; the winding number decides where that is in doubt.
+    each with its angle; the winding number decides where that is in doubt, or everywhere if asked to.
 
     Parameters
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64, closed, oriented outward
+    crossed : bool
+        The surface crosses itself: what it winds around is inside. Twice as slow.
 
     References
     ----------
     Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005.
     """
 
-    def __init__(self, V: Floats, F: Ints) -> None:
+    def __init__(self, V: Floats, F: Ints, *, crossed: bool = False) -> None:
         self.V, self.F = np.ascontiguousarray(V), np.ascontiguousarray(F)
+        self._crossed = crossed
         self._of_face = unit(area_vectors(V, F))
         e = edges(F)
         self._of_halfedge = self._of_face[np.arange(3 * len(F)) // 3] + self._of_face[e.twin // 3]
@@ -64,7 +67,7 @@ class Depth:
         normal[on_vertex] = self._of_vertex[self.F[face[on_vertex], tip[on_vertex]]]
         distance = np.sqrt(squared)
         height = np.einsum("ij,ij->i", points - foot, unit(normal))
-        doubtful = np.abs(height) < _DOUBTFUL * distance
+        doubtful = self._crossed | (np.abs(height) < _DOUBTFUL * distance)
         if doubtful.any():
             winding = np.asarray(igl.fast_winding_number(self.V, self.F, points[doubtful]))
             height[doubtful] = 0.5 - winding

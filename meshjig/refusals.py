@@ -1,4 +1,4 @@
-"""Whether pieces as small as asked for can be made at all."""
+"""What can be refused before any work is done."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.options import Options
+from meshjig.output.printers import parse_plate
 from meshjig.tiling.outline import edge_ends
 from meshjig.tiling.registry import get_family
 
-__all__ = ["refuse_too_small_pieces"]
+__all__ = ["refuse_too_small_pieces", "refuse_unknown_names"]
 
 FEWEST = 2  # pieces that a puzzle can have
 CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
@@ -42,6 +43,20 @@ def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:
         f"too narrow for a clearance of {options.clearance:g} mm",
         hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
     )
+
+
+def refuse_unknown_names(options: Options) -> None:
+    """Refuse a tiling or a printer that nobody knows.
+
+    Raises
+    ------
+    OptionError
+        The sentence lists those that are known.
+    """
+    if options.layout == "tiles":
+        get_family(options.tile, options.seed)
+    if options.plate is not None:
+        parse_plate(options.plate)
 
 
 def _neck_of_tiles(options: Options) -> float | None:
