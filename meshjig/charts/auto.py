@@ -86,7 +86,7 @@ def _good_rings(V: Floats, F: Ints, light: tuple[Floats, Ints], seed: int) -> tu
     """Give rings around a component where they pass the gates; else why not."""
     from meshjig.charts.periodic import suits
 
-    if not suits(*light):
+    if not suits(V, F):
         return None, ""
     try:
         rings = Charting(_rings(V, F, seed), "periodic")

@@ -43,7 +43,7 @@ class Bend:
         self._n_faces[e.E[e.n_faces == 1].ravel()] = -1  # a border vertex is inner to no region
 
     def exceeds(self, faces: Ints, limit: float) -> bool:
-        """Tell whether the spread over faces (k,), a disc, is above a limit; with little curvature, at once."""
+        """Tell whether the spread over faces (k,), a disc, is above a limit."""
         if np.abs(self._curvature[self._inner(faces)]).sum() < limit:
             return False
         return self.spread(faces) > limit

@@ -14,7 +14,7 @@ from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Carrier"]
 
-_MAY_LOSE = 0.03  # of the area within FLAT_LIMITS, to turn back mirrored faces and draw borders apart
+_MAY_LOSE = 0.03
 
 
 class Carrier:
@@ -40,12 +40,14 @@ class Carrier:
         rows = np.flatnonzero(self._sides[:, 0] != self._sides[:, 1])
         self._chains = [rows[chain] for chain in chains(self._e.E[rows], rim)]
 
-    def carry(self, chart: Chart) -> Chart | None:
+    def carry(self, chart: Chart, may_lose: float = _MAY_LOSE) -> Chart | None:
         """Flatten a chart's part of the mesh as the proxy's is; None where that makes no sound chart.
 
         Parameters
         ----------
         chart : Chart, of the proxy
+        may_lose : float, share of the area that may leave FLAT_LIMITS for mirrored faces to be turned
+            back and borders to be drawn apart
         """
         leaves = np.unique(self._light_leaf[chart.faces])
         faces = np.flatnonzero(np.isin(self.leaf, leaves))
@@ -59,7 +61,7 @@ class Carrier:
         if not (is_unflipped(uv, corners) and border_is_simple(uv, corners)):
             return None
         uv = unit_stretch(X, corners, uv)
-        if flat_share(X, corners, uv) < flat_share(X, corners, guess) - _MAY_LOSE:
+        if flat_share(X, corners, uv) < flat_share(X, corners, guess) - may_lose:
             return None  # too much was pulled along
         return Chart(faces, uv, corners)
 

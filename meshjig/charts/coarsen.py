@@ -72,7 +72,9 @@ def _shrunk(V: Floats, F: Ints, label: Ints, on_border: Bools) -> Floats:
     area = np.maximum(np.linalg.norm(N, axis=1), 1e-300)
     share = np.bincount(F.ravel(), np.repeat(area, 3), len(V)) + 1e-9 * area.mean()
     share *= np.where(on_border, 1e6, 1.0)  # a border stays where it is
-    mean = np.stack([np.bincount(label, share * x, n) for x in V.T], 1) / np.bincount(label, share, n)[:, None]
+    mean = (
+        np.stack([np.bincount(label, share * x, n) for x in V.T], 1) / np.bincount(label, share, n)[:, None]
+    )
     upper = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
     terms = [N[:, i] * N[:, j] / area for i, j in upper]
     height = np.einsum("ij,ij->i", N, V[F[:, 0]]) / area

@@ -7,7 +7,8 @@ from meshjig.charts.arap import arap
 from meshjig.charts.bend import Bend
 from meshjig.charts.flatten import FLAT_LIMITS, ring_is_simple
 from meshjig.charts.lscm import lscm
-from meshjig.charts.region import Region, Regions, is_stout
+from meshjig.charts.region import Region, Regions
+from meshjig.charts.stout import is_stout
 from meshjig.charts.tutte import tutte
 from meshjig.errors import ChartError
 from meshjig.measure import face_areas, singular_values
@@ -18,14 +19,14 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SPREAD = 0.62  # log scale; regions above it hardly ever pass the flattening
-_ITERATIONS = 3  # of ARAP; more hardly ever change the verdict
+_ITERATIONS = 4  # of ARAP; more hardly ever change the verdict
 
 
 class Judge:
     """Answers whether regions of one mesh are good charts.
 
-    A good chart is a disc without thin parts that flattens without mirrored faces, keeps both its stretches within
-    FLAT_LIMITS on enough of its area, and has a border that does not meet itself in the plane.
+    A good chart is a disc without thin parts that flattens without mirrored faces, keeps both its
+    stretches within FLAT_LIMITS on enough of its area, and has a border that does not meet itself in the plane.
     Cheap tests come first. ARAP stands in for SLIM: it takes a fifth of the time, and the two agree
     on nine regions of ten.
 

@@ -9,6 +9,7 @@ from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
 from meshjig.charts.transfer import transfer_labels
+from meshjig.measure import face_areas
 from meshjig.topology import compact, components
 from meshjig.types import Bools, Floats, Ints
 
@@ -69,9 +70,22 @@ def own_charts(
     for chart in charts:
         made, missing = _carried(carrier, chart, leaves, light_leaf)
         carried += made
-        regions = [np.flatnonzero(carrier.leaf == number) for number in missing]
-        carried += _sound_charts(V, F, regions, method, seed)
+        for number in missing:
+            region = np.flatnonzero(carrier.leaf == number)
+            anew = _sound_charts(V, F, [region], method, seed)
+            pulled = carrier.carry(leaves[number], may_lose=1.0)
+            carried += anew if pulled is None or _flat(V, F, anew) > _flat(V, F, [pulled]) else [pulled]
     return Charting(carried, method, carrier.leaf)
+
+
+def _flat(V: Floats, F: Ints, charts: list[Chart]) -> float:
+    """Give the area of charts that lies within FLAT_LIMITS, mm2."""
+    total = 0.0
+    for chart in charts:
+        X = np.empty((len(chart.uv), 3))
+        X[chart.corners] = V[F[chart.faces]]
+        total += flat_share(X, chart.corners, chart.uv) * float(face_areas(V, F[chart.faces]).sum())
+    return total
 
 
 def _carried(

@@ -6,11 +6,15 @@ import numpy as np
 
 from meshjig.charts.border import border_loop
 from meshjig.charts.flatten import FLAT_LIMITS, border_is_simple
+from meshjig.charts.gate import gate_share
 from meshjig.measure import face_areas, singular_values, sums
 from meshjig.topology import compact, edges, next_halfedge
 from meshjig.types import Atlas, Bools, Floats, Ints
 
 __all__ = ["quality", "seam_over_sqrt_area"]
+
+
+_SCALE = 0.025  # of the root of the area: a quarter of a tile of a hundred
 
 
 def quality(atlas: Atlas) -> dict[str, Any]:
@@ -24,7 +28,8 @@ def quality(atlas: Atlas) -> dict[str, Any]:
     -------
     dict with
         n_charts, flips (mirrored or empty faces), gate_share (share of the area whose stretch
-        lies within FLAT_LIMITS both ways), seam_over_sqrt_area (length of all cuts over the root of the
+        lies within FLAT_LIMITS both ways, at the scale of tiles), gate_share_faces (the same face by face,
+        noise and all), seam_over_sqrt_area (length of all cuts over the root of the
         area; closing lines of periodic charts are none), overlaps (charts whose border meets itself in the
         plane, or its copy a period away), charts (for each: faces, area_mm2, gate_share, period_mm)
     """
@@ -39,7 +44,8 @@ def quality(atlas: Atlas) -> dict[str, Any]:
     return {
         "n_charts": n,
         "flips": int((face_areas(atlas.uv, atlas.F_uv) <= 0).sum()),
-        "gate_share": float(area[good].sum() / area.sum()),
+        "gate_share": gate_share(V, F, atlas.uv, atlas.F_uv, _SCALE * float(np.sqrt(area.sum()))),
+        "gate_share_faces": float(area[good].sum() / area.sum()),
         "seam_over_sqrt_area": seam_over_sqrt_area(V, F, _is_seam(atlas)),
         "overlaps": sum(_overlaps(atlas, number, float(p)) for number, p in enumerate(period)),
         "charts": [

@@ -7,15 +7,10 @@ from numpy.typing import NDArray
 
 from meshjig.topology import edges, next_halfedge
 
-__all__ = ["Region", "Regions", "is_stout"]
+__all__ = ["Region", "Regions"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-
-_SMALL = 30  # faces; smaller regions are not asked for more than to be discs
-_TIPS = 4  # thin faces that may always be, or as a share of all:
-_TIPS_SHARE = 0.02
 
 
 class Region(NamedTuple):
@@ -72,30 +67,3 @@ def _single_loop(start: Ints, end: Ints) -> Ints | None:
         if len(loop) > len(start):
             return None
     return np.array(loop, np.int64) if len(loop) == len(start) else None
-
-
-def is_stout(region: Region) -> bool:
-    """Tell whether a region has neither thin necks nor long thin tips.
-
-    Every two inner vertices must hang together over edges between inner vertices, and only a few
-    faces may be away from all faces that have one. What is thinner gets lost on the way to another mesh,
-    and holds no tile.
-    """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    F, n = region.F, len(region.kept)
-    if len(F) < _SMALL:
-        return True
-    inner = np.ones(n, bool)
-    inner[region.loop] = False
-    core = inner[F].any(1)
-    at_core = np.zeros(n, bool)
-    at_core[F[core].ravel()] = True
-    if (~at_core[F].any(1)).sum() > max(_TIPS, _TIPS_SHARE * len(F)):
-        return False
-    ends = np.concatenate([F[:, :2], F[:, 1:]])
-    ends = ends[inner[ends].all(1)]
-    graph = coo_matrix((np.ones(len(ends), np.int8), ends.T), shape=(n, n))
-    _, part = connected_components(graph, directed=False)
-    return bool(len(np.unique(part[inner])) <= 1)

@@ -12,6 +12,7 @@ from meshjig.charts.polish import polish
 from meshjig.charts.proxy import proxy
 from meshjig.charts.smooth import smooth
 from meshjig.charts.split import split
+from meshjig.charts.stout import stouter
 from meshjig.charts.tidy import tidy
 from meshjig.charts.transfer import transfer_labels
 
@@ -22,7 +23,7 @@ Ints = NDArray[np.int64]
 
 _SKETCH = 2500  # faces on which charts are sought; more of them find no better charts
 _TRIES = 2
-_SKETCH_SHARE = 0.993  # a little more than is asked of the mesh, so that few charts need mending
+_SKETCH_SHARE = 0.988  # a little more than is asked of the mesh, so that few charts need mending
 
 
 def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 2) -> Ints:
@@ -53,20 +54,18 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
     for n in range(_TRIES):
         label = _search(W, G, light, sketch, n_patches, seed + n, rounds)
         if G is not F:
-            label = transfer_labels(V, F, W, G, label)
+            label = stouter(F, transfer_labels(V, F, W, G, label), graph.area)
             label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
             label = dissolve(V, F, graph, label, judge, seed)
         found.append(label)
     return polish(F, graph, min(found, key=lambda label: _cost(graph, label)), judge)
 
 
-def _search(
-    V: Floats, F: Ints, graph: Dual, judge: Judge, n_patches: int, seed: int, rounds: int
-) -> Ints:
+def _search(V: Floats, F: Ints, graph: Dual, judge: Judge, n_patches: int, seed: int, rounds: int) -> Ints:
     """Merge patches to charts, then smooth and merge again for as long as that helps."""
     label = merge(graph, split(V, F, patches(graph, n_patches, seed), judge.accepts, seed), judge)
     for _ in range(rounds):
-        straight = tidy(F, smooth(graph, label), graph.area)
+        straight = stouter(F, tidy(F, smooth(graph, label), graph.area), graph.area)
         smoother = merge(graph, split(V, F, straight, judge.accepts, seed), judge)
         if smoother.max() > label.max():
             break

@@ -18,6 +18,8 @@ Bools = NDArray[np.bool_]
 _REACH = 0.02  # of the root of the area: a proxy's faces show as teeth along its borders
 _FOLD = 0.75  # cosine between normals; over sharper edges shares are not averaged
 _SURE = 0.999  # the share from which a label has no rival
+_LONG = 2.0  # times that reach: sides of faces so large that their borders are straight already
+_BEYOND = 2.0  # barycentric coordinate: how far beyond a face its plane is followed
 _AT_ONCE = 2_000_000  # numbers to hold in memory
 
 
@@ -43,7 +45,9 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     inside, thin = _inside_and_thin(G, label)
     share[inside] = own[inside]
     share = _corner_shares(graph, G, share)
-    share[thin] = own[thin][:, None]
+    side = np.linalg.norm(W[G] - W[np.roll(G, -1, 1)], axis=2).max(1)
+    hard = thin | (side > _LONG * _REACH * np.sqrt(graph.area.sum()))
+    share[hard] = own[hard][:, None]
     best = share.argmax(2)
     sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
     clear = np.where(sure, best[:, 0], -1)
@@ -53,7 +57,7 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     N, M = area_vectors(V, F), area_vectors(W, G)
     rivals = np.flatnonzero(known < 0)
     centre, bary = _nearest(V[F[rivals]].mean(1), W, G)
-    known[rivals] = _strongest(share[centre], np.clip(bary, 0, 1))
+    known[rivals] = _strongest(share, centre, np.clip(bary, 0, 1))
     seen = M[near][F].sum(1)
     seen[rivals] = M[centre]
     same_side = np.einsum("ij,ij->i", N, seen) >= 0  # of a thin sheet
@@ -94,9 +98,14 @@ def _corner_shares(graph: Dual, G: Ints, share: Floats) -> Floats:
     return np.asarray(spread @ share)[fan.reshape(-1, 3)]
 
 
-def _strongest(share: Floats, bary: Floats) -> Ints:
-    """Give the label with most share at points of faces, of whose corners share (f, 3, k) tells."""
-    return np.einsum("fj,fjl->fl", bary, share).argmax(1)
+def _strongest(share: Floats, face: Ints, bary: Floats) -> Ints:
+    """Give the label with most share at points of faces, of whose corners share (m', 3, k) tells."""
+    out = np.empty(len(face), np.int64)
+    step = max(1, _AT_ONCE // share[0].size)
+    for start in range(0, len(face), step):
+        some = slice(start, start + step)
+        out[some] = np.einsum("fj,fjl->fl", bary[some], share[face[some]]).argmax(1)
+    return out
 
 
 def _nearest(points: Floats, W: Floats, G: Ints) -> tuple[Ints, Floats]:
@@ -123,6 +132,6 @@ def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:
     uv : (n, 2) float64, mm. Faces may come out mirrored: see untangle.
     """
     face, bary = _nearest(V, W, G)
-    bary = np.clip(bary, -1.0, 2.0)
+    bary = np.clip(bary, -_BEYOND, _BEYOND)
     bary[:, 0] = 1 - bary[:, 1] - bary[:, 2]
     return interpolate(uv, G, face, bary)

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshjig.types import Floats, Ints
 
-__all__ = ["Body", "arrays", "body", "sound"]
+__all__ = ["Body", "arrays", "body", "largest", "sound"]
 
 Body = Any  # manifold3d.Manifold
 
@@ -33,3 +33,8 @@ def sound(solid: Body) -> bool:
     import manifold3d
 
     return bool(solid.status() == manifold3d.Error.NoError and solid.volume() > 0)
+
+
+def largest(solid: Body) -> Body:
+    """Give the largest connected part of a body."""
+    return max(solid.decompose(), key=lambda part: float(part.volume()), default=solid)

@@ -5,27 +5,32 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.finish.depth import Depth
+from meshjig.finish.room import Room
 from meshjig.measure import area_vectors, unit
-from meshjig.topology import edges, next_halfedge
+from meshjig.topology import edges
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["cleared"]
 
 _REACH = 0.5  # edges of a face, that a vertex may be moved to its depth
+_YIELD = 0.25  # edges of a face, that it gives way after that: more would fold
 _ENOUGH = 0.998  # of the clearance
-_ON_EDGE = ([0, 0, 0, 1], [0, 1, 1, 1])  # means of these are places on an edge, and on a face
-_ON_FACE = ([0, 0, 0, 0, 1, 2], [0, 1, 1, 1, 1, 2], [0, 1, 2, 2, 2, 2])
 _AIM = 1.04  # of the clearance, to which vertices give way: between the places looked at, it is less
-_ROUNDS = 12
-_CREASE = 0.95  # cosine between the faces of a crease; over a flatter one a face hardly sags
-_TURNED = 0.3  # cosine between a face before and after
+_LEFT = 0.97  # of the clearance: what is nearer in the end is to be cut off
+_ROUNDS = 5
+_SAG = 0.01  # of the clearance: an edge that sags less need not be looked at
+_ALIKE = 0.9  # cosine between the ways to the other surface from both ends of such an edge
+_TURNED = 0.3  # cosine between a face before and after a step that turns it over
+_ON_EDGE = ([0, 0, 0, 1], [0, 1, 1, 1])  # means of these corners are places on an edge, and on a face
+_ON_FACE = ([0, 0, 0, 0, 1, 2], [0, 1, 1, 1, 1, 2], [0, 1, 2, 2, 2, 2])
 
 
-def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats, float]:
+def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats, Ints]:
     """Move the vertices of a surface inside another so that its faces keep the clearance.
 
     First every vertex goes to the depth that was asked for. Flat faces then still come too near where the
-    other surface has creases that stand out towards them; there, vertices give way until they don't.
+    other surface has creases that stand out towards them; there, vertices give way, but not so far that
+    faces turn over.
 
     Parameters
     ----------
@@ -37,95 +42,65 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
     Returns
     -------
     V : (n, 3) float64, mm
-    least : float, mm
-        The least distance found from places on edges and faces, and from the other surface's vertices.
+    near : (k,) int64
+        Faces of the other surface that it still comes too near to, because they stand out too far.
     """
     E = edges(F).E
-    reach = _REACH * float(np.median(np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1)))
+    edge = float(np.median(np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1)))
     depth, foot = around.at(V)
     away = unit(V - foot) * np.sign(depth)[:, None]
-    lack = np.where(np.abs(clearance - depth) < reach, clearance - depth, 0.0)
-    V = _unfolded(V, F, lack[:, None] * away)
-    gone = np.zeros(len(V))
-    V, least = _given_way(V, F, gone, away, reach, clearance, _Room([np.arange(len(V))[:, None], E, F], F, around, reach))
-    hot = gone > 0
+    lack = clearance - depth
+    step = np.where((lack < _REACH * edge) & (lack > -_YIELD * edge), lack, 0.0)
+    first, V = V, _stepped(V, F, step[:, None] * away)
+    sagging = _may_sag(V, E, away, _SAG * clearance)
+    low = np.zeros(len(V), bool)
+    low[E[sagging].ravel()] = True
+    still = np.flatnonzero((step == 0) | low)
+    room = Room([still[:, None], E[sagging], F[low[F].any(axis=1)]], F, around, _YIELD * edge)
+    V, gone = _given_way(V, np.zeros(len(V)), away, edge, clearance, room)
+    hot = gone > _FINE * clearance
     E, G = E[hot[E].any(axis=1)], F[hot[F].any(axis=1)]
-    finer = [E[:, ends] for ends in _ON_EDGE] + [G[:, corners] for corners in _ON_FACE]
-    V, fine = _given_way(V, F, gone, away, reach, clearance, _Room([*finer, E, G], F, around, reach))
-    return V, float(np.minimum(np.where(hot, np.inf, least), fine).min())
+    finer = room.finer([E[:, ends] for ends in _ON_EDGE] + [G[:, corners] for corners in _ON_FACE])
+    given, _ = _given_way(V, gone, away, edge, clearance, finer)
+    V = _uncrossed(given, first, F)
+    near = [np.zeros(0, np.int64)]
+    for places in (room, finer):
+        places.update(V, (V != (V if places is finer else given)).any(axis=1))
+        near.append(places.too_near(V, _LEFT * clearance))
+    return V, np.unique(np.concatenate(near))
+
+
+def _may_sag(V: Floats, E: Ints, away: Floats, least: float) -> Bools:
+    """Tell which edges may be nearer to the other surface in their middle than at their ends, by some mm."""
+    first, second = away[E[:, 0]], away[E[:, 1]]
+    sag = np.einsum("ij,ij->i", second - first, V[E[:, 1]] - V[E[:, 0]]) / 8
+    return (sag > least) | (np.einsum("ij,ij->i", first, second) < _ALIKE)
 
 
 def _given_way(
-    V: Floats, F: Ints, gone: Floats, away: Floats, reach: float, clearance: float, room: _Room
+    V: Floats, gone: Floats, away: Floats, edge: float, clearance: float, room: Room
 ) -> tuple[Floats, Floats]:
-    """Move vertices off while there is not enough room; add to how far each has gone, and give its room."""
+    """Move vertices off while there is not enough room; give them, and how far each has gone in all."""
     moved = np.ones(len(V), bool)
-    for _ in range(_ROUNDS):
+    for turn in range(_ROUNDS):
         room.update(V, moved)
-        least = room.least_at_vertices(V)
-        step = np.clip(_AIM * clearance - least, 0.0, reach - gone)
-        moved = (least < _ENOUGH * clearance) & (step > 0)
-        if not moved.any():
+        least = room.at_vertices(len(V))
+        step = np.clip(_AIM * clearance - least, 0.0, _YIELD * edge - gone)
+        step[least >= _ENOUGH * clearance] = 0.0
+        if turn == _ROUNDS - 1 or not step.any():
             break
-        step[~moved] = 0.0
-        went = _unfolded(V, F, step[:, None] * away)
+        went = _stepped(V, room.F, step[:, None] * away)
         moved = (went != V).any(axis=1)
-        V = went
-        gone += np.where(moved, step, 0.0)
-    return V, least
+        V, gone = went, gone + np.where(moved, step, 0.0)
+    return V, gone
 
 
-def _unfolded(V: Floats, F: Ints, step: Floats) -> Floats:
+def _stepped(V: Floats, F: Ints, step: Floats) -> Floats:
     """Let vertices take a step, but for those of faces that it would turn over."""
     before = unit(area_vectors(V, F))
     step = step.copy()
     while True:
         over = np.einsum("ij,ij->i", unit(area_vectors(V + step, F)), before) < _TURNED
-        stuck = F[over]
-        if not step[stuck].any():
+        if not step[F[over]].any():
             return V + step
-        step[stuck] = 0.0
-
-
-class _Room:
-    """How far a surface is from the one around it: from means of some vertices, and from the other's vertices."""
-
-    def __init__(self, parts: list[Ints], F: Ints, around: Depth, spacing: float) -> None:
-        self.F, self.around, self.parts = F, around, parts
-        self.depth = tuple(np.empty(len(part)) for part in self.parts)
-        self.outside = _outstanding(around, 0.5 * spacing)
-        self.below, self.distance = np.zeros(0, np.int64), np.zeros(0)
-
-    def update(self, V: Floats, moved: Bools) -> None:
-        """Measure again where vertices have moved."""
-        for part, depth in zip(self.parts, self.depth, strict=True):
-            old = np.flatnonzero(moved[part].any(axis=1))
-            depth[old] = self.around.at(V[part[old]].mean(axis=1))[0]
-        inside, self.below, _ = Depth(V, self.F).nearest(self.outside)
-        self.distance = -inside
-        near = self.distance < 2 * np.median(self.distance)
-        self.outside, self.below, self.distance = self.outside[near], self.below[near], self.distance[near]
-
-    def least_at_vertices(self, V: Floats) -> Floats:
-        """Give the least distance that each vertex has to do with, (n,)."""
-        least = np.full(len(V), np.inf)
-        for part, depth in (*zip(self.parts, self.depth, strict=True), (self.F[self.below], self.distance)):
-            np.minimum.at(least, part.ravel(), np.repeat(depth, part.shape[1]))
-        return least
-
-
-def _outstanding(around: Depth, spacing: float) -> Floats:
-    """Give corners of a surface, and points along the creases that stand out to its inside, (k, 3)."""
-    V, F = around.V, around.F
-    twin = edges(F).twin
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    N = unit(area_vectors(V, F))
-    a, b = V[F.ravel()[h]], V[F.ravel()[next_halfedge(h)]]
-    tip = V[F.ravel()[next_halfedge(next_halfedge(twin[h]))]]
-    crease = np.einsum("ij,ij->i", N[h // 3], N[twin[h] // 3]) < _CREASE
-    crease &= np.einsum("ij,ij->i", tip - a, N[h // 3]) > 0
-    a, b = a[crease], b[crease]
-    count = np.ceil(np.linalg.norm(b - a, axis=1) / spacing).astype(np.int64)
-    which = np.repeat(np.arange(len(a)), count)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
-    return np.concatenate([V, a[which] + ((rank + 0.5) / count[which])[:, None] * (b - a)[which]])
+        step[F[over]] = 0.0

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import SolidError
-from meshjig.finish.bodies import Body, arrays, body, sound
+from meshjig.finish.bodies import Body, arrays, body, largest, sound
+from meshjig.finish.carve import carved
 from meshjig.finish.clear import cleared
 from meshjig.finish.close import closed_over
 from meshjig.finish.depth import Depth
@@ -20,7 +21,7 @@ from meshjig.types import Floats, Ints, Mesh
 
 __all__ = ["make_core"]
 
-_CELLS = 150  # along the largest extent
+_CELLS = 130  # along the largest extent
 _THINNEST = 0.5  # of the wall: the core has no thinner parts
 _MOST_CUTS = 12  # along an axis
 
@@ -77,11 +78,15 @@ def make_core(
         made = made[kept]
         if sound(body(made, G)):
             break
-    made, least = cleared(made, G, around, clearance)
+    made, near = cleared(made, G, around, clearance)
     whole = body(made, G)
+    if len(near):
+        whole = largest(carved(whole, V, F[near], clearance))
     if not sound(whole):
         raise _no_room()
-    gap = {"min": least, "median": _median_gap(made, G, around)}
+    print("CARVED", len(near))
+    made, G = arrays(whole)
+    gap = _gap(made, G, around)
     drains = 0
     if wall > 0:
         whole, drains = hollowed(whole, around, clearance, wall, cell, up)
@@ -105,12 +110,15 @@ def _no_room() -> SolidError:
     )
 
 
-def _median_gap(V: Floats, F: Ints, around: Depth) -> float:
+def _gap(V: Floats, F: Ints, around: Depth) -> dict[str, float]:
+    """Give the least gap found, and the one that half of the area has at most."""
     area = face_areas(V, F)
     depth = around.at(V[F].mean(axis=1))[0]
     order = np.argsort(depth)
     share = np.cumsum(area[order])
-    return float(depth[order[np.searchsorted(share, share[-1] / 2)]])
+    median = float(depth[order[np.searchsorted(share, share[-1] / 2)]])
+    outside = float(-Depth(V, F).at(around.V)[0].max())
+    return {"min": min(float(depth[order[0]]), outside), "median": median}
 
 
 def _blocks(whole: Body, plate: tuple[float, float, float]) -> list[Body]:

@@ -33,7 +33,11 @@ class Depth:
     """
 
     def __init__(self, V: Floats, F: Ints, *, crossed: bool = False) -> None:
+        import igl
+
         self.V, self.F = np.ascontiguousarray(V), np.ascontiguousarray(F)
+        self._tree = igl.AABB()
+        self._tree.init(self.V, self.F)
         self._crossed = crossed
         self._of_face = unit(area_vectors(V, F))
         e = edges(F)
@@ -53,10 +57,8 @@ class Depth:
 
     def nearest(self, points: Floats) -> tuple[Floats, Ints, Floats]:
         """Give how deep points (k, 3) lie, (k,), and the nearest faces (k,) and points (k, 3)."""
-        import igl
-
         points = np.ascontiguousarray(points)
-        squared, face, foot = igl.point_mesh_squared_distance(points, self.V, self.F)
+        squared, face, foot = self._tree.squared_distance(self.V, self.F, points)
         bary = barycentric(self.V, self.F, face, foot)
         normal = self._of_face[face]
         corner = bary.argmin(axis=1)  # its opposite edge starts at the next corner
@@ -69,6 +71,8 @@ class Depth:
         height = np.einsum("ij,ij->i", points - foot, unit(normal))
         doubtful = self._crossed | (np.abs(height) < _DOUBTFUL * distance)
         if doubtful.any():
+            import igl
+
             winding = np.asarray(igl.fast_winding_number(self.V, self.F, points[doubtful]))
             height[doubtful] = 0.5 - winding
         return np.where(height < 0, distance, -distance), face, foot

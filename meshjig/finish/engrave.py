@@ -87,7 +87,9 @@ def engrave(
     made, skipped, heights = [], {}, []
     for (V, F), label, wall in zip(pieces, labels, wall_behind(pieces, outer, D), strict=True):
         ground = F[wall >= needed]
-        done = _engraved(V, F, ground, wall[wall >= needed], label, lettering, min_wall) if len(ground) else None
+        done = (
+            _engraved(V, F, ground, wall[wall >= needed], label, lettering, min_wall) if len(ground) else None
+        )
         if done is None:
             made.append((V, F))
             skipped[label] = _why(V, F, wall, needed)

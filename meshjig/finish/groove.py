@@ -34,7 +34,8 @@ def groove(outline: Any, inset: float) -> Body:
     Its sides are a height over the plane, so they can't cross each other.
     """
     floor, rim = (
-        _rings(outline.buffer(step * inset, quad_segs=_QUARTER).simplify(_SMOOTH * inset)) for step in (-1.0, TOP)
+        _rings(outline.buffer(step * inset, quad_segs=_QUARTER).simplify(_SMOOTH * inset))
+        for step in (-1.0, TOP)
     )
     n = sum(len(ring) for ring in floor)
     points = np.concatenate(floor + rim)

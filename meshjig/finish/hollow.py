@@ -19,7 +19,9 @@ _LONGEST = 4.0  # walls, length of a drain
 _SIDES = 24
 
 
-def hollowed(core: Body, around: Depth, depth: float, wall: float, cell: float, up: Floats) -> tuple[Body, int]:
+def hollowed(
+    core: Body, around: Depth, depth: float, wall: float, cell: float, up: Floats
+) -> tuple[Body, int]:
     """Leave a wall of a body, and open each hollow at its lowest point.
 
     Parameters

@@ -156,7 +156,9 @@ def _spots(V: Floats, F: Ints) -> Floats:
     over = u + v > 1
     u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
     corner = V[F[which]]
-    return corner[:, 0] + u[:, None] * (corner[:, 1] - corner[:, 0]) + v[:, None] * (corner[:, 2] - corner[:, 0])
+    return (
+        corner[:, 0] + u[:, None] * (corner[:, 1] - corner[:, 0]) + v[:, None] * (corner[:, 2] - corner[:, 0])
+    )
 
 
 def _distances(points: Floats, others: Floats) -> Floats:
