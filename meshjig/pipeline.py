@@ -89,7 +89,7 @@ def make_puzzle(
         exempt = [names[i] for i in sorted(touched)]
         verdict = judge(
             [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
-            neighbours=locks.pairs.tolist(),
+            neighbours=locks.pairs[locks.faces_other(options.clearance)].tolist(),
             thickness=options.thickness,
             clearance=options.clearance,
             min_wall=options.min_wall,

@@ -72,11 +72,12 @@ def assemble_report(
         "meshjig": meshjig_version(),
         "input": scan.facts,
         "options": options.model_dump(),
-        "charts": layout.atlas.facts,
+        "charts" if layout.cells is None else "cells": layout.atlas.facts
+        | ({} if layout.cells is None else layout.cells.facts),
         "cut": cut.facts,
         "stitching": layout.stitching.facts,
         "solid": solid_facts,
-        "pieces": _pieces(n, area, solids, locks),
+        "pieces": _pieces(n, area, solids, locks, options.clearance),
         "checks": checks,
         "names": verdict.named
         | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(least_neck)]},
@@ -93,11 +94,13 @@ def _broken_as_a_whole(checks: dict[str, Any]) -> dict[str, list[str]]:
 
 
 def _pieces(
-    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock
+    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock, clearance: float
 ) -> list[dict[str, Any]]:
     neighbours: list[list[int]] = [[] for _ in range(n)]
     knobs = np.zeros(n, np.int64)
-    for (a, b), count in zip(locks.pairs.tolist(), locks.knobs_of_pair.tolist(), strict=True):
+    facing = locks.faces_other(clearance)
+    pairs, counts = locks.pairs[facing].tolist(), locks.knobs_of_pair[facing].tolist()
+    for (a, b), count in zip(pairs, counts, strict=True):
         neighbours[a].append(b + 1)
         neighbours[b].append(a + 1)
         knobs[[a, b]] += count

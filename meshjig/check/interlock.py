@@ -10,6 +10,8 @@ from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
 
 __all__ = ["Interlock", "interlock"]
 
+TOUCH = 3.0  # clearances; borders up to that length count as corners
+
 
 @dataclass(frozen=True)
 class Interlock:
@@ -32,6 +34,13 @@ class Interlock:
         """Share of the length of all borders that belongs to borders with a knob."""
         total = float(self.length.sum())
         return float(self.length[self.knobs_of_pair > 0].sum()) / total if total > 0 else None
+
+    def faces_other(self, clearance: float) -> Bools:
+        """Tell which pairs face each other over a gap, (b,); others share no more than a corner.
+
+        A border of a few clearances is swallowed by the gaps of the pieces at its ends.
+        """
+        return self.length > TOUCH * clearance
 
     def thin_necked(self, least: float) -> list[int]:
         """List the pieces with a knob, their own or the other's in them, whose neck is narrower, mm."""
