@@ -35,11 +35,12 @@ def gate_share(V: Floats, F: Ints, uv: Floats, F_uv: Ints, at: float) -> float:
     place = np.floor(uv[F_uv].mean(1) / at).astype(np.int64)
     _, cell = np.unique(place, axis=0, return_inverse=True)
     weight = np.bincount(cell, plane * good)
-    mean = np.stack([np.bincount(cell, plane * metric[:, k]) for k in range(3)], 1)
-    mean /= np.maximum(weight, 1e-300)[:, None]
+    total = np.stack([np.bincount(cell, plane * metric[:, k]) for k in range(3)], 1)
+    mean = total / np.maximum(weight, 1e-300)[:, None]
     middle, spread = (mean[:, 0] + mean[:, 2]) / 2, np.hypot((mean[:, 0] - mean[:, 2]) / 2, mean[:, 1])
     rough = max(float(area.sum() / max(plane[good].sum(), 1e-300)), 1.0)  # by noise, areas grow alike
-    low, high = np.sqrt((middle - spread) / rough), np.sqrt((middle + spread) / rough)
+    low = np.sqrt(np.maximum(middle - spread, 0.0) / rough)
+    high = np.sqrt((middle + spread) / rough)
     within = (1 / np.maximum(high, 1e-9) >= FLAT_LIMITS[0]) & (1 / np.maximum(low, 1e-9) <= FLAT_LIMITS[1])
     return float(area[within[cell] & good].sum() / area.sum())
 

@@ -78,7 +78,7 @@ def _inside_and_thin(G: Ints, label: Ints) -> tuple[Bools, Bools]:
     near_core = np.isin(G * k + label[:, None], np.unique(G[core] * k + label[core][:, None])).any(1)
     at_strip = np.zeros(n, bool)
     at_strip[G[~near_core].ravel()] = True
-    return inner[G].all(1), at_strip[G].any(1)
+    return np.all(inner[G], axis=1), np.any(at_strip[G], axis=1)
 
 
 def _corner_shares(graph: Dual, G: Ints, share: Floats) -> Floats:

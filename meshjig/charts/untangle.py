@@ -52,7 +52,7 @@ def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
     reached = np.zeros(int(F.max()) + 1, bool)
     for _ in range(rings):
         reached[F[faces].ravel()] = True
-        faces = reached[F].any(1)
+        faces = np.any(reached[F], axis=1)
     return faces
 
 
