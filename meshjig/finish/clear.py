@@ -8,7 +8,7 @@ from meshjig.finish.depth import Depth
 from meshjig.finish.room import Room
 from meshjig.measure import area_vectors, unit
 from meshjig.topology import edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.types import Floats, Ints
 
 __all__ = ["cleared"]
 
@@ -17,11 +17,9 @@ _YIELD = 0.25  # edges of a face, that it gives way after that: more would fold
 _ENOUGH = 0.998  # of the clearance
 _AIM = 1.04  # of the clearance, to which vertices give way: between the places looked at, it is less
 _LEFT = 0.97  # of the clearance: what is nearer in the end is to be cut off
-_ROUNDS = 5
-_SAG = 0.01  # of the clearance: an edge that sags less need not be looked at
-_ALIKE = 0.9  # cosine between the ways to the other surface from both ends of such an edge
+_ROUNDS = 3
 _TURNED = 0.3  # cosine between a face before and after a step that turns it over
-_ON_EDGE = ([0, 0, 0, 1], [0, 1, 1, 1])  # means of these corners are places on an edge, and on a face
+_ON_EDGE = ([0, 0, 0, 1], [0, 1], [0, 1, 1, 1])  # means of these corners are places on an edge, and on a face
 _ON_FACE = ([0, 0, 0, 0, 1, 2], [0, 1, 1, 1, 1, 2], [0, 1, 2, 2, 2, 2])
 
 
@@ -52,36 +50,22 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
     lack = clearance - depth
     step = np.where((lack < _REACH * edge) & (lack > -_YIELD * edge), lack, 0.0)
     first, V = V, _stepped(V, F, step[:, None] * away)
-    sagging = _may_sag(V, E, away, _SAG * clearance)
-    low = np.zeros(len(V), bool)
-    low[E[sagging].ravel()] = True
-    still = np.flatnonzero((step == 0) | low)
-    room = Room([still[:, None], E[sagging], F[low[F].any(axis=1)]], F, around, _YIELD * edge)
+    places = [np.arange(len(V))[:, None], F, *(E[:, ends] for ends in _ON_EDGE)]
+    room = Room(places, F, around, _YIELD * edge)
     V, gone = _given_way(V, np.zeros(len(V)), away, edge, clearance, room)
-    hot = gone > _FINE * clearance
-    E, G = E[hot[E].any(axis=1)], F[hot[F].any(axis=1)]
-    finer = room.finer([E[:, ends] for ends in _ON_EDGE] + [G[:, corners] for corners in _ON_FACE])
-    given, _ = _given_way(V, gone, away, edge, clearance, finer)
-    V = _uncrossed(given, first, F)
-    near = [np.zeros(0, np.int64)]
-    for places in (room, finer):
-        places.update(V, (V != (V if places is finer else given)).any(axis=1))
-        near.append(places.too_near(V, _LEFT * clearance))
-    return V, np.unique(np.concatenate(near))
-
-
-def _may_sag(V: Floats, E: Ints, away: Floats, least: float) -> Bools:
-    """Tell which edges may be nearer to the other surface in their middle than at their ends, by some mm."""
-    first, second = away[E[:, 0]], away[E[:, 1]]
-    sag = np.einsum("ij,ij->i", second - first, V[E[:, 1]] - V[E[:, 0]]) / 8
-    return (sag > least) | (np.einsum("ij,ij->i", first, second) < _ALIKE)
+    G = F[(gone > 0)[F].any(axis=1)]
+    room.look_at([G[:, corners] for corners in _ON_FACE])
+    V, _ = _given_way(V, gone, away, edge, clearance, room)
+    final = _uncrossed(V, first, F)
+    room.update(final, (final != V).any(axis=1))
+    return final, room.too_near(final, _LEFT * clearance)
 
 
 def _given_way(
     V: Floats, gone: Floats, away: Floats, edge: float, clearance: float, room: Room
 ) -> tuple[Floats, Floats]:
     """Move vertices off while there is not enough room; give them, and how far each has gone in all."""
-    moved = np.ones(len(V), bool)
+    moved = np.zeros(len(V), bool)
     for turn in range(_ROUNDS):
         room.update(V, moved)
         least = room.at_vertices(len(V))
@@ -104,3 +88,17 @@ def _stepped(V: Floats, F: Ints, step: Floats) -> Floats:
         if not step[F[over]].any():
             return V + step
         step[F[over]] = 0.0
+
+
+def _uncrossed(V: Floats, first: Floats, F: Ints) -> Floats:
+    """Send vertices back to where they came from until no two faces cross, as none did there."""
+    import igl.copyleft.cgal as cgal
+
+    V = V.copy()
+    while True:
+        crossing = np.asarray(cgal.remesh_self_intersections(V, F, detect_only=True)[2]).reshape(-1, 2)
+        back = np.unique(F[crossing])
+        back = back[(V[back] != first[back]).any(axis=1)]
+        if not len(back):
+            return V
+        V[back] = first[back]

@@ -21,8 +21,8 @@ from meshjig.types import Floats, Ints, Mesh
 
 __all__ = ["make_core"]
 
-_CELLS = 130  # along the largest extent
-_THINNEST = 0.5  # of the wall: the core has no thinner parts
+_CELLS = 125  # along the largest extent
+_AIM = 1.06  # of the clearance: the gap is known in many places, not in all
 _MOST_CUTS = 12  # along an axis
 
 
@@ -32,20 +32,22 @@ def make_core(
     clearance: float,
     *,
     wall: float,
+    min_wall: float,
     up: Floats,
     plate: tuple[float, float, float] | None = None,
 ) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
     """Make the body that fills a puzzle, but for a gap.
 
-    Limbs too thin for it have none. It is hollow, with a hole below each hollow, and cut into blocks where it
-    is too large for the plate.
+    Limbs too thin for a core have none. It is hollow, with a drain below each hollow, and cut into blocks
+    where it is too large for the plate. The largest part alone is kept of what is not connected.
 
     Parameters
     ----------
-    outer : Mesh, the outer sheet of the pieces; its openings are closed by fans
+    outer : Mesh, the outer sheet of the pieces; its openings are closed by lids
     D : (n, 3) float64, mm, from its vertices to the inner sheet
     clearance : float, mm, between the inner sheet and the core, at least
     wall : float, mm; 0 for a solid core
+    min_wall : float, mm; the core has no thinner parts, roughly
     up : (3,) float64, unit, the way the core stands when it is emptied
     plate : (3,) float, mm, width, depth and height of what a printer can make, optional
 
@@ -67,10 +69,11 @@ def make_core(
     About 3 s for 100,000 faces.
     """
     V, F, closed = closed_over(outer.V + D, outer.F)
-    cell, thinnest = float(np.ptp(V, axis=0).max()) / _CELLS, _THINNEST * wall
+    cell = float(np.ptp(V, axis=0).max()) / _CELLS
+    aim = _AIM * clearance
     for crossed in (False, True):
         around = Depth(V, F, crossed=crossed)
-        made, G = inset_surface(around, clearance, cell, thinnest)
+        made, G = inset_surface(around, aim, cell, min_wall)
         if not len(G):
             raise _no_room()
         n, label = components(G)
@@ -78,21 +81,22 @@ def make_core(
         made = made[kept]
         if sound(body(made, G)):
             break
-    made, near = cleared(made, G, around, clearance)
+    made, near = cleared(made, G, around, aim)
     whole = body(made, G)
     if len(near):
-        whole = largest(carved(whole, V, F[near], clearance))
+        whole = largest(carved(whole, V, F[near], aim))
     if not sound(whole):
-        raise _no_room()
-    print("CARVED", len(near))
+        raise SolidError(
+            "the core can't be made, since the inner side of this model crosses itself", hint="leave it out"
+        )
     made, G = arrays(whole)
     gap = _gap(made, G, around)
     drains = 0
     if wall > 0:
-        whole, drains = hollowed(whole, around, clearance, wall, cell, up)
+        whole, drains = hollowed(whole, around, aim, wall, cell, up)
     blocks = _blocks(whole, plate) if plate is not None else [whole]
     parts = [part for block in blocks for part in block.decompose()]
-    large = [part for part in parts if part.volume() > max(thinnest, cell) ** 3]
+    large = [part for part in parts if part.volume() > max(min_wall, cell) ** 3]
     facts = {
         "parts": len(large),
         "volume_mm3": float(sum(part.volume() for part in large)),

@@ -36,7 +36,7 @@ def hollowed(
     Returns
     -------
     Body
-        In one part. Where a hollow is small, or has no way out through the wall below it, it stays filled.
+        In one part. What is too small, or has no way out through the wall below it, stays filled.
     drains : int
     """
     V, F = inset_surface(around, depth + wall, _COARSE * cell, wall)

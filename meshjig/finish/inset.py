@@ -17,7 +17,7 @@ _CYCLE = [0, 1, 3, 2, 4, 5, 7, 6]  # the corners as marching cubes wants them: a
 _SIDES = ([0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7])
 _BITS = 20
 _OFF = 0.1  # cells: a point nearer to the surface would make for slivers
-_SPARE = 1.0  # cells farther inside that are known, since points may be taken out
+_SPARE = 0.5  # cells inside the thinnest part that are known as well
 _GRID = 0.6  # cells, by which a ball's middle may be off the grid's points
 _CUT = 0.25  # cells, how far outside a point is taken to be that was left out
 
@@ -30,7 +30,7 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
     surface : Depth
     depth : float, mm
     cell : float, mm, edge of a cube of the grid
-    thinnest : float, mm; parts of the inside that are thinner, and longer than a cell, are left out
+    thinnest : float, mm; parts of the inside that are thinner, and wider than a cell, are left out
 
     Returns
     -------
@@ -45,12 +45,13 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
 
     low = surface.V.min(axis=0) - 0.49 * cell
     size = 2**_LEVELS
+    spare = max(cell, thinnest / 2 + _SPARE * cell)
     counts = np.ceil((surface.V.max(axis=0) - low) / (cell * size)).astype(np.int64)
     cubes = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), -1).reshape(-1, 3) * size
     while size > 1:
         found = surface.at(low + cell * (cubes + size / 2))[0]
         band = _HALF_DIAGONAL * size * cell
-        cubes = cubes[(found > depth - band) & (found < depth + band + _SPARE * cell)]
+        cubes = cubes[(found > depth - band) & (found < depth + band + spare)]
         size //= 2
         cubes = (cubes[:, None] + size * _CORNERS).reshape(-1, 3)
     if not len(cubes):

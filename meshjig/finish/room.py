@@ -29,35 +29,35 @@ class Room:
 
     def __init__(self, parts: list[Ints], F: Ints, around: Depth, spacing: float) -> None:
         self.F, self._around, self._parts = F, around, parts
-        self._depth = [np.empty(len(part)) for part in parts]
+        self._depth = [np.full(len(part), np.nan) for part in parts]
         self._outside = _outstanding(around, spacing)
         self._below, self._distance = np.zeros(0, np.int64), np.zeros(0)
-        self._sifted = False
 
-    def finer(self, parts: list[Ints]) -> Room:
-        """Look at other places on the surface, and at those places on the other one that are near it."""
-        room = Room.__new__(Room)
-        room.F, room._around, room._parts = self.F, self._around, parts
-        room._depth = [np.empty(len(part)) for part in parts]
-        room._outside, room._below, room._distance = self._outside, self._below, self._distance
-        room._sifted = self._sifted
-        return room
+    def look_at(self, parts: list[Ints]) -> None:
+        """Add other places on the surface; they are measured at the next update."""
+        self._parts = [*self._parts, *parts]
+        self._depth += [np.full(len(part), np.nan) for part in parts]
 
     def update(self, V: Floats, moved: Bools) -> None:
         """Measure again where some vertices (n,) have moved; V is (n, 3)."""
-        old = [np.flatnonzero(moved[part].any(axis=1)) for part in self._parts]
+        old = [
+            np.flatnonzero(moved[part].any(axis=1) | np.isnan(depth))
+            for part, depth in zip(self._parts, self._depth, strict=True)
+        ]
         points = [V[part[rows]].mean(axis=1) for part, rows in zip(self._parts, old, strict=True)]
         depth = np.split(
             self._around.at(np.concatenate(points))[0], np.cumsum([len(rows) for rows in old])[:-1]
         )
         for known, rows, new in zip(self._depth, old, depth, strict=True):
             known[rows] = new
-        inside, face, _ = Depth(V, self.F).nearest(self._outside)
-        self._below, self._distance = face, -inside
-        if not self._sifted:
+        first = not len(self._below)
+        if first or moved.any():
+            inside, self._below, _ = Depth(V, self.F).nearest(self._outside)
+            self._distance = -inside
+        if first:
             near = self._distance < _FAR * np.median(self._distance)
-            self._outside, self._below, self._distance = self._outside[near], face[near], self._distance[near]
-            self._sifted = True
+            self._outside, self._below = self._outside[near], self._below[near]
+            self._distance = self._distance[near]
 
     def at_vertices(self, n: int) -> Floats:
         """Give the least distance that each of n vertices has to do with, inf for none."""

@@ -58,7 +58,7 @@ def text_outline(text: str, height: float, stroke: float) -> Any:
             x += _SPACE * height
             continue
         across = np.concatenate(own)[:, 0]
-        lines += [line + [x - across.min(), 0.0] for line in own]
+        lines += [line + np.array([x - across.min(), 0.0]) for line in own]
         x += np.ptp(across) + (1 + _LETTER_GAP) * stroke
     if lines and reads_both_ways(text):
         lines.append(np.array([[0.0, -2 * stroke], [x - (1 + _LETTER_GAP) * stroke, -2 * stroke]]))
