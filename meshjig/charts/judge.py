@@ -27,8 +27,8 @@ class Judge:
 
     A good chart is a disc without thin parts that flattens without mirrored faces, keeps both its
     stretches within FLAT_LIMITS on enough of its area, and has a border that does not meet itself in
-    the plane. Cheap tests come first. ARAP stands in for SLIM: it takes a fifth of the time, and the two agree
-    on nine regions of ten.
+    the plane. Cheap tests come first. ARAP stands in for SLIM: it takes a fifth of the time, and the
+    two agree on nine regions of ten.
 
     Parameters
     ----------
