@@ -109,7 +109,8 @@ def tell_notes(report: dict[str, Any]) -> None:
     if report["exempt"]:
         n = len({name for names in report["exempt"].values() for name in names})
         say(f"meshjig: note: the mesh crosses itself, and so do {n} pieces: --resurface rebuilds its surface")
-    for limb in report.get("cells", {}).get("thin_limbs", []):
+    limbs = report.get("cells", {}).get("thin_limbs", [])
+    for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])
         say(f"meshjig: note: the limb around ({where}) mm is thin: {limb['pieces']} pieces would suit it")
     necks = report["checks"]["thin_necks"]

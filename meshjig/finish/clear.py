@@ -18,6 +18,7 @@ _ENOUGH = 0.998  # of the clearance
 _AIM = 1.04  # of the clearance, to which vertices give way: between the places looked at, it is less
 _LEFT = 0.97  # of the clearance: what is nearer in the end is to be cut off
 _ROUNDS = 3
+_SPACING = 0.4  # of the clearance, between the places looked at on creases that stand out
 _TURNED = 0.3  # cosine between a face before and after a step that turns it over
 _ON_EDGE = ([0, 0, 0, 1], [0, 1], [0, 1, 1, 1])  # means of these corners are places on an edge, and on a face
 _ON_FACE = ([0, 0, 0, 0, 1, 2], [0, 1, 1, 1, 1, 2], [0, 1, 2, 2, 2, 2])
@@ -51,7 +52,7 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
     step = np.where((lack < _REACH * edge) & (lack > -_YIELD * edge), lack, 0.0)
     first, V = V, _stepped(V, F, step[:, None] * away)
     places = [np.arange(len(V))[:, None], F, *(E[:, ends] for ends in _ON_EDGE)]
-    room = Room(places, F, around, _YIELD * edge)
+    room = Room(places, F, around, min(_SPACING * clearance, _YIELD * edge))
     V, gone = _given_way(V, np.zeros(len(V)), away, edge, clearance, room)
     G = F[(gone > 0)[F].any(axis=1)]
     room.look_at([G[:, corners] for corners in _ON_FACE])

@@ -18,7 +18,7 @@ _SIDES = ([0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], 
 _BITS = 20
 _OFF = 0.1  # cells: a point nearer to the surface would make for slivers
 _SPARE = 0.5  # cells inside the thinnest part that are known as well
-_GRID = 0.6  # cells, by which a ball's middle may be off the grid's points
+_GRID = 1.0  # cells, by which a ball may be farther: its middle need not be on the grid
 _CUT = 0.25  # cells, how far outside a point is taken to be that was left out
 
 
