@@ -20,6 +20,7 @@ __all__ = ["cell_layout"]
 log = logging.getLogger("meshjig")
 
 PASSES = 2  # the second makes cells larger or smaller by what their knobs take and give
+MANY = 600  # cells from which one pass has to do: knobs come out even among so many, and time counts
 NEVER = 2.0  # a share of a border that no two pieces have: cells are whole as they are
 
 
@@ -36,7 +37,7 @@ def cell_layout(surface: Mesh, options: Options, stages: Stages) -> Layout:
     n = options.pieces if options.piece_size is None else max(1, round(area / options.piece_size**2))
     size = float(np.sqrt(area / n))
     cells, atlas, knobs = _grown(surface, n, size, options, stages, None, None)
-    for _ in range(PASSES - 1):
+    for _ in range(PASSES - 1 if n < MANY else 0):
         wanted = _wanted_areas(cells, knobs)
         cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
     log.info("cells: %s; knobs: %s", cells.facts, knobs.facts)
