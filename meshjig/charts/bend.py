@@ -12,6 +12,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+_LITTLE = 6.0  # radians of curvature for a spread of 1: a cone of as much, spread over a disc, has less
+
+
 class Bend:
     """Answers the spread of scale that flattening a region of a mesh takes.
 
@@ -43,8 +46,11 @@ class Bend:
         self._n_faces[e.E[e.n_faces == 1].ravel()] = -1  # a border vertex is inner to no region
 
     def exceeds(self, faces: Ints, limit: float) -> bool:
-        """Tell whether the spread over faces (k,), a disc, is above a limit."""
-        if np.abs(self._curvature[self._inner(faces)]).sum() < limit:
+        """Tell whether the spread over faces (k,), a disc, is above a limit.
+
+        Where there is little curvature it hardly can be, and is not computed.
+        """
+        if np.abs(self._curvature[self._inner(faces)]).sum() < _LITTLE * limit:
             return False
         return self.spread(faces) > limit
 

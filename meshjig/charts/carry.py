@@ -6,6 +6,7 @@ from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
 from meshjig.charts.flatten import border_is_simple, flat_share, is_unflipped, unit_stretch
 from meshjig.charts.part import part
+from meshjig.charts.settle import settle
 from meshjig.charts.strays import without_strays
 from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
@@ -57,7 +58,7 @@ class Carrier:
         X = np.empty((int(corners.max()) + 1, 3))
         X[corners] = self._V[self._F[faces]]
         guess = without_strays(X, corners, self._first_guess(chart, faces, corners))
-        uv = part(X, corners, untangle(X, corners, guess))
+        uv = part(X, corners, settle(X, corners, untangle(X, corners, guess)))
         if not (is_unflipped(uv, corners) and border_is_simple(uv, corners)):
             return None
         uv = unit_stretch(X, corners, uv)

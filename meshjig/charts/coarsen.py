@@ -13,6 +13,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 _REPAIRS = 6
+_LIGHTER = 0.8  # of the faces may be left, or it is not worth while
 _STAY = 0.02  # how strongly a star holds to its mean, where its faces leave a choice
 
 
@@ -32,7 +33,8 @@ def coarsen(V: Floats, F: Ints, seed: int = 0) -> tuple[Floats, Ints] | None:
 
     Returns
     -------
-    V : (n', 3) float64, mm, and F : (m', 3) int64; None where the topology could not be kept
+    V : (n', 3) float64, mm, and F : (m', 3) int64; None where the topology could not
+        be kept, or the mesh got hardly lighter
 
     References
     ----------
@@ -58,7 +60,7 @@ def coarsen(V: Floats, F: Ints, seed: int = 0) -> tuple[Floats, Ints] | None:
         centre[loose] = np.flatnonzero(loose)
     else:
         return None
-    if len(number) - len(edges(G).E) + len(G) != goal or components(G)[0] != 1:
+    if len(G) > _LIGHTER * len(F) or len(number) - len(edges(G).E) + len(G) != goal or components(G)[0] != 1:
         return None
     return _shrunk(V, F, label, on_border), G
 

@@ -1,5 +1,7 @@
 """Flatten one chart: the method that was asked for, held to a promise that no face is mirrored."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -31,7 +33,9 @@ Method = Literal["lscm", "arap", "slim"]
 
 FLAT_LIMITS = (0.8, 1.25)  # stretch that a person does not notice on a jigsaw tile
 _ENOUGH = 0.985  # share of the area within FLAT_LIMITS
-_ITERATIONS = (20, 6, 3)
+_MUCH = 0.1  # of that share
+_ATTEMPTS = (("slim", 20), ("arap", 20), ("slim", 6), ("arap", 4), ("slim", 3))  # with their iterations
+_ATTEMPTS_IF_HEAVY = (("arap", 20), ("slim", 4))
 _HEAVY = 12_000  # faces from which SLIM is too slow for the full number
 _LEAST_AREA = 1e-14  # of the square of the chart's extent
 
@@ -40,9 +44,9 @@ def flatten(V: Floats, F: Ints, method: Method = "slim") -> Floats:
     """Flatten a chart without mirrored faces, at a mean stretch of 1.
 
     LSCM comes first; where it mirrors faces, Tutte's embedding takes its place and SLIM follows,
-    whatever the method. LSCM or ARAP that folds or overlaps gives way to SLIM, and SLIM to ARAP
-    where that leaves more of the area within FLAT_LIMITS. A chart may grow into itself as it nears
-    isometry: then its borders are drawn apart, or it stops earlier.
+    whatever the method. LSCM or ARAP that folds or overlaps gives way to SLIM. A chart may grow into
+    itself as it nears isometry: then its borders are drawn apart; where that leaves too much of the
+    area outside FLAT_LIMITS, other ways are tried, and the best is taken.
 
     Parameters
     ----------
@@ -69,27 +73,52 @@ def flatten(V: Floats, F: Ints, method: Method = "slim") -> Floats:
     for uv in first:
         if is_unflipped(uv, F) and border_is_simple(uv, F):
             return unit_stretch(V, F, uv)
-    for iterations in _ITERATIONS if len(F) < _HEAVY else _ITERATIONS[1:]:
-        uv = slim(V, F, start, iterations)
-        if is_unflipped(uv, F) and not border_is_simple(uv, F):
-            uv = part(V, F, uv)
-        if is_unflipped(uv, F) and border_is_simple(uv, F):
-            return _flatter(V, F, unit_stretch(V, F, uv), start)
-    if not is_unflipped(start, F):
+    best = _best_of(V, F, _attempts(V, F, start))
+    if best is None:
         raise ChartError("a chart can't be flattened without folds", hint="repair its degenerate faces")
-    return unit_stretch(V, F, start)
+    return best
 
 
-def _flatter(V: Floats, F: Ints, uv: Floats, start: Floats) -> Floats:
-    """Give way to ARAP where SLIM, which minds the worst faces most, leaves too many slightly off."""
-    share = flat_share(V, F, uv)
-    if share >= _ENOUGH:
-        return uv
-    other = arap(V, F, start)
-    if not (is_unflipped(other, F) and border_is_simple(other, F)):
-        return uv
-    other = unit_stretch(V, F, other)
-    return other if flat_share(V, F, other) > share else uv
+def _best_of(V: Floats, F: Ints, attempts: Iterator[Floats]) -> Floats | None:
+    """Give the flattening with most area within FLAT_LIMITS, of those whose border is simple.
+
+    Where there is none, or each is much worse than one that overlaps, the chart can't be had whole:
+    that one is given, for the caller to see. None where there were no attempts.
+    """
+    simple, overlapping = _Best(), _Best()
+    for attempt in attempts:
+        uv = unit_stretch(V, F, attempt)
+        if not border_is_simple(uv, F):
+            overlapping.offer(uv, flat_share(V, F, uv))
+            uv = part(V, F, uv)
+            if not (is_unflipped(uv, F) and border_is_simple(uv, F)):
+                continue
+            uv = unit_stretch(V, F, uv)
+        simple.offer(uv, flat_share(V, F, uv))
+        if simple.share >= _ENOUGH:
+            break
+    return overlapping.uv if overlapping.share > simple.share + _MUCH else simple.uv
+
+
+@dataclass
+class _Best:
+    uv: Floats | None = None
+    share: float = -1.0
+
+    def offer(self, uv: Floats, share: float) -> None:
+        if share > self.share:
+            self.uv, self.share = uv, share
+
+
+def _attempts(V: Floats, F: Ints, start: Floats) -> Iterator[Floats]:
+    """Give flattenings without mirrored faces, the one most worth having first."""
+    light = len(F) < _HEAVY
+    for method, iterations in _ATTEMPTS if light else _ATTEMPTS_IF_HEAVY:
+        uv = slim(V, F, start, iterations) if method == "slim" else arap(V, F, start, iterations)
+        if is_unflipped(uv, F):
+            yield uv
+    if is_unflipped(start, F):
+        yield start
 
 
 def is_unflipped(uv: Floats, F: Ints) -> bool:

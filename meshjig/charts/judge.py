@@ -38,7 +38,7 @@ class Judge:
         Share of the area that must lie within FLAT_LIMITS.
     """
 
-    def __init__(self, V: Floats, F: Ints, least_share: float = 0.98) -> None:
+    def __init__(self, V: Floats, F: Ints, least_share: float = 0.97) -> None:
         self._V = V
         self._area = face_areas(V, F)
         self._bend = Bend(V, F)

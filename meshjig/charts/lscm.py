@@ -43,7 +43,7 @@ def lscm(V: Floats, F: Ints, border: Ints | None = None) -> Floats:
     border = border_loop(F) if border is None else border
     if len(border) < 3:
         raise ChartError("a chart without a border can't be flattened", hint="cut it first")
-    first = border[0]
+    first = border[np.linalg.norm(V[border] - V[border].mean(0), axis=1).argmax()]
     reach = np.linalg.norm(V[border] - V[first], axis=1)
     if not reach.max() > 0:  # libigl would end the process
         raise ChartError("a chart's border is a single point", hint="repair its degenerate faces")

@@ -13,11 +13,11 @@ __all__ = ["proxy"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_HEAVY = 6  # times as many faces as wanted: from there on, decimation takes too long
+_HEAVY = 8  # times as many faces as wanted: from there on, decimation takes too long
 _ROUGH = 0.25  # mean of 1 - cos between vertex normals over an edge; smooth shapes stay below 0.1
 
 
-def proxy(V: Floats, F: Ints, n_faces: int = 6000) -> tuple[Floats, Ints]:
+def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     """Decimate one component to about n_faces, with its topology kept but for vertices that pinch.
 
     Noise is smoothed away before: it would count as curvature.

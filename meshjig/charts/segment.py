@@ -9,28 +9,23 @@ from meshjig.charts.judge import Judge
 from meshjig.charts.merge import merge
 from meshjig.charts.patches import patches
 from meshjig.charts.polish import polish
-from meshjig.charts.proxy import proxy
 from meshjig.charts.smooth import smooth
 from meshjig.charts.split import split
 from meshjig.charts.stout import stouter
 from meshjig.charts.tidy import tidy
-from meshjig.charts.transfer import transfer_labels
 
 __all__ = ["segment"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_SKETCH = 2500  # faces on which charts are sought; more of them find no better charts
 _TRIES = 2
-_SKETCH_SHARE = 0.988  # a little more than is asked of the mesh, so that few charts need mending
 
 
-def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 2) -> Ints:
+def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 1) -> Ints:
     """Label each face of one component with its chart.
 
-    Charts are sought on a sketch of the mesh, more than once from other patches; each division is
-    carried over and mended where the finer surface does not bear it, and the best is taken.
+    Patches are merged to charts, more than once from other patches; the best division is taken.
 
     Parameters
     ----------
@@ -47,17 +42,8 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
     judge = Judge(V, F)
     if judge.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
-    W, G = proxy(V, F, _SKETCH)
-    graph, light = dual(V, F), dual(W, G)
-    sketch = judge if G is F else Judge(W, G, _SKETCH_SHARE)
-    found = []
-    for n in range(_TRIES):
-        label = _search(W, G, light, sketch, n_patches, seed + n, rounds)
-        if G is not F:
-            label = stouter(F, transfer_labels(V, F, W, G, label), graph.area)
-            label = merge(graph, split(V, F, label, judge.accepts, seed), judge)
-            label = dissolve(V, F, graph, label, judge, seed)
-        found.append(label)
+    graph = dual(V, F)
+    found = [_search(V, F, graph, judge, n_patches, seed + n, rounds) for n in range(_TRIES)]
     return polish(F, graph, min(found, key=lambda label: _cost(graph, label)), judge)
 
 

@@ -17,20 +17,18 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 _RINGS = 6
-_ROUGH = 0.15  # of the area stretches too much: that is noise, not detail
 _SWEEPS = 12  # of conjugate gradients: details are near, so few reach them
 _BACK = 12  # rounds in which mirrored faces draw their surroundings back
 _THINNEST = 1e-2  # lesser stretch of a face below which it is drawn back
 
 
-def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 2) -> Floats:
+def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3) -> Floats:
     """Bring faces around those that stretch too much nearer to rigid copies.
 
     A few steps of ARAP whose equations are solved only roughly, by conjugate gradients from the
     given flattening: what a proxy has seen stays, what it has not seen, bumps of a few edges, gets the
     room it needs. Time and memory are linear in the mesh. The border stays, so one that does not
-    meet itself does not come to. A rough mesh stays as it is: its faces are stretched by noise, and a
-    map that followed the noise would be the worse for it.
+    meet itself does not come to.
 
     Parameters
     ----------
@@ -50,7 +48,7 @@ def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 2) -> Floats:
     s = singular_values(V, F, uv)
     area = face_areas(V, F)
     bad = (s[:, 1] < FLAT_LIMITS[0]) | (s[:, 0] > FLAT_LIMITS[1])
-    if not bad.any() or area[bad].sum() > _ROUGH * area.sum() or s[:, 1].min() <= 0:
+    if not bad.any() or s[:, 1].min() <= 0:
         return uv
     near = faces_around(F, bad, _RINGS)
     H, kept = compact(F[near])
@@ -130,12 +128,12 @@ def _roughly_solved(A: Any, diagonal: Floats, b: Floats) -> Floats:
 
 def _drawn_back(V: Floats, F: Ints, uv: Floats, before: Floats) -> Floats:
     """Take vertices of mirrored faces, and in turn those around, back to where they were."""
-    for _ in range(_BACK):
+    for n in range(_BACK):
         bad = singular_values(V, F, uv)[:, 1] < _THINNEST
         bad &= (uv[F] != before[F]).any((1, 2))
         if not bad.any():
             return uv
-        back = F[bad].ravel()
+        back = F[faces_around(F, bad, n // 3)].ravel()
         uv = uv.copy()
         uv[back] = before[back]
     return before

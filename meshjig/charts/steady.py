@@ -1,8 +1,9 @@
-"""Give faces without area a little, so that every map can be computed."""
+"""Ready a mesh for flattening: faces without area get a little, noise is smoothed away."""
 
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.denoise import denoise
 from meshjig.errors import ChartError
 from meshjig.measure import face_areas
 
@@ -16,9 +17,10 @@ _SHIFT = 1e-3  # of the mean edge
 
 
 def steady(V: Floats, F: Ints, seed: int = 0) -> Floats:
-    """Shift the corners of faces without area at random, by far less than an edge.
+    """Shift the corners of faces without area at random, by far less than an edge; smooth a noisy surface.
 
-    A single such face leaves the equations of a chart without a solution.
+    A single such face leaves the equations of a chart without a solution. Noise counts as curvature,
+    and mirrors faces when charts are carried over from a proxy.
 
     Parameters
     ----------
@@ -28,7 +30,8 @@ def steady(V: Floats, F: Ints, seed: int = 0) -> Floats:
 
     Returns
     -------
-    V : (n, 3) float64, mm. For flattening only; V itself where no face is thin.
+    V : (n, 3) float64, mm. For flattening only; V itself where no face is thin and there is
+        little noise.
 
     Raises
     ------
@@ -41,8 +44,8 @@ def steady(V: Floats, F: Ints, seed: int = 0) -> Floats:
         raise ChartError("the mesh has no extent", hint="remove faces without area and points at infinity")
     thin = 2 * face_areas(V, F) < _THIN * edge * np.maximum(side.max(1), _THIN * edge)
     if not thin.any():
-        return V
+        return denoise(V, F)
     moved = np.unique(F[thin])
     out = V.copy()
     out[moved] += _SHIFT * edge * np.random.default_rng(seed).normal(size=(len(moved), 3))
-    return out
+    return denoise(out, F)

@@ -7,7 +7,7 @@ from meshjig.charts.dual import Dual, dual
 from meshjig.charts.smooth import diffusion
 from meshjig.charts.tidy import tidy
 from meshjig.measure import area_vectors, barycentric, interpolate
-from meshjig.topology import next_halfedge
+from meshjig.topology import is_disc, next_halfedge
 
 __all__ = ["transfer_labels", "transfer_uv"]
 
@@ -17,9 +17,10 @@ Bools = NDArray[np.bool_]
 
 _REACH = 0.02  # of the root of the area: a proxy's faces show as teeth along its borders
 _FOLD = 0.75  # cosine between normals; over sharper edges shares are not averaged
+_FINER = 8  # times the faces of the proxy: there, even its thinnest parts are many faces wide
 _SURE = 0.999  # the share from which a label has no rival
 _LONG = 2.0  # times that reach: sides of faces so large that their borders are straight already
-_BEYOND = 2.0  # barycentric coordinate: how far beyond a face its plane is followed
+_BEYOND = 20.0  # barycentric coordinate: how far beyond a face its plane is followed
 _AT_ONCE = 2_000_000  # numbers to hold in memory
 
 
@@ -39,15 +40,22 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     -------
     label : (m,) int64. A label may come out empty, or as no disc: the caller checks.
     """
-    graph = dual(W, G)
-    share = diffusion(graph, _REACH)(label)
-    own = np.eye(share.shape[1])[label]
-    inside, thin = _inside_and_thin(G, label)
-    share[inside] = own[inside]
-    share = _corner_shares(graph, G, share)
-    side = np.linalg.norm(W[G] - W[np.roll(G, -1, 1)], axis=2).max(1)
-    hard = thin | (side > _LONG * _REACH * np.sqrt(graph.area.sum()))
-    share[hard] = own[hard][:, None]
+    smooth = _carried(V, F, W, G, _shares(W, G, label))
+    if len(F) > _FINER * len(G) or not _broken(F, smooth, G, label):
+        return smooth
+    plain = np.repeat(np.eye(int(label.max()) + 1)[label][:, None], 3, 1)
+    hard = _carried(V, F, W, G, plain)
+    return hard if _broken(F, hard, G, label) < _broken(F, smooth, G, label) else smooth
+
+
+def _broken(F: Ints, carried: Ints, G: Ints, label: Ints) -> int:
+    """Count the labels that are discs on the proxy and none on the mesh."""
+    labels = range(int(label.max()) + 1)
+    return sum(is_disc(G[label == k]) and not is_disc(F[carried == k]) for k in labels)
+
+
+def _carried(V: Floats, F: Ints, W: Floats, G: Ints, share: Floats) -> Ints:
+    """Give each face the label with most share where it is nearest to the proxy."""
     best = share.argmax(2)
     sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
     clear = np.where(sure, best[:, 0], -1)
@@ -64,6 +72,20 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     if same_side.any():
         known[~same_side] = -1
     return tidy(F, known, np.linalg.norm(N, axis=1))
+
+
+def _shares(W: Floats, G: Ints, label: Ints) -> Floats:
+    """Give the share of every label at every corner of the proxy's faces, (m', 3, k)."""
+    graph = dual(W, G)
+    share = diffusion(graph, _REACH)(label)
+    own = np.eye(share.shape[1])[label]
+    inside, thin = _inside_and_thin(G, label)
+    share[inside] = own[inside]
+    share = _corner_shares(graph, G, share)
+    side = np.linalg.norm(W[G] - W[np.roll(G, -1, 1)], axis=2).max(1)
+    hard = thin | (side > _LONG * _REACH * np.sqrt(graph.area.sum()))
+    share[hard] = own[hard][:, None]
+    return share
 
 
 def _inside_and_thin(G: Ints, label: Ints) -> tuple[Bools, Bools]:

@@ -15,6 +15,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 _THINNEST = 1e-3  # the lesser stretch below which a face counts as mirrored
+_FIRST = 6  # rounds that turn back most, before wider surroundings are looked at
 _BORDER_STAYS = 2  # rounds in which only inner vertices move
 
 
@@ -35,15 +36,16 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
     -------
     uv : (n, 2) float64, mm. Mirrored faces may be left: the caller checks.
     """
-    bad = _mirrored(V, F, uv)
-    if not bad.any():
-        return uv
-    near = faces_around(F, bad, rounds // 2 + 2)
-    H, kept = compact(F[near])
-    stays = np.zeros(len(V), bool)
-    stays[F[~near].ravel()] = True
-    uv = uv.copy()
-    uv[kept] = _relaxed(V[kept], H, uv[kept], stays[kept], bad[near], rounds)
+    for n, even in ((_FIRST, False), (rounds, True)):
+        bad = _mirrored(V, F, uv)
+        if not bad.any():
+            break
+        near = faces_around(F, bad, n // 2 + 2)
+        H, kept = compact(F[near])
+        stays = np.zeros(len(V), bool)
+        stays[F[~near].ravel()] = True
+        uv = uv.copy()
+        uv[kept] = _relaxed(V[kept], H, uv[kept], stays[kept], bad[near], n, even)
     return uv
 
 
@@ -56,11 +58,12 @@ def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
     return faces
 
 
-def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: int) -> Floats:
+def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: int, even: bool) -> Floats:
+    """Relax with near neighbours weighing more, which stretches less, or evenly, which turns more back."""
     from scipy.sparse import diags
     from scipy.sparse.linalg import spsolve
 
-    adjacency, along_border, on_border = _neighbours(F, stays)
+    adjacency, along_border, on_border = _neighbours(V, F, stays, even)
     inner = diags((~on_border).astype(float))
     W = (inner @ adjacency + along_border).tocsr()
     L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()
@@ -78,7 +81,8 @@ def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: i
             uv = uv.copy()
             uv[free] = target.reshape(-1, 2)
             _stand_up_ears(V, F, uv, moves)
-            bad = _mirrored(V, F, uv)
+            touched = np.flatnonzero(np.any(moves[F], axis=1))
+            bad[touched] = _mirrored(V, F[touched], uv)
         if not bad.any():
             break
     return uv
@@ -102,7 +106,7 @@ def _stand_up_ears(V: Floats, F: Ints, uv: Floats, moves: Bools) -> None:
     uv[apex] = uv[a] + along[:, None] * flat + height[:, None] * flat[:, ::-1] * [-1.0, 1.0]
 
 
-def _neighbours(F: Ints, stays: Bools) -> tuple[Any, Any, Bools]:
+def _neighbours(V: Floats, F: Ints, stays: Bools, even: bool) -> tuple[Any, Any, Bools]:
     """Give who is joined by an edge, who by a border edge, and who lies on the border.
 
     Where faces were left out, both ends of an edge stay: that is no border.
@@ -113,6 +117,8 @@ def _neighbours(F: Ints, stays: Bools) -> tuple[Any, Any, Bools]:
     rim = e.E[(e.n_faces == 1) & ~stays[e.E].all(1)]
     on_border = np.zeros(n, bool)
     on_border[rim.ravel()] = True
-    every = coo_matrix((np.ones(len(e.E)), e.E.T), shape=(n, n))
+    length = np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1)
+    weight = np.ones(len(e.E)) if even else length.mean() / np.maximum(length, 1e-2 * length.mean())
+    every = coo_matrix((weight, e.E.T), shape=(n, n))
     along = coo_matrix((np.ones(len(rim)), rim.T), shape=(n, n))
     return (every + every.T).tocsr(), (along + along.T).tocsr(), on_border

@@ -4,7 +4,7 @@ import pytest
 from meshjig.charts.steady import steady
 from meshjig.errors import ChartError
 from meshjig.measure import face_areas
-from tests.meshes import sphere
+from tests.meshes import noisy, sphere
 
 
 def test_steady_moves_thin_faces_only_and_by_little():
@@ -19,3 +19,8 @@ def test_steady_moves_thin_faces_only_and_by_little():
     assert shift.max() < 0.1
     with pytest.raises(ChartError, match="no extent"):
         steady(np.zeros_like(V), F)
+
+
+def test_noise_is_smoothed_away_on_top_of_that():
+    V, F = noisy(sphere(20000), 0.25)
+    assert np.linalg.norm(steady(V, F), axis=1).std() < 0.4 * np.linalg.norm(V, axis=1).std()
