@@ -67,13 +67,22 @@ def make(
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
     ] = None,
     config: Config = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="only say what would be made, and write nothing")
+    ] = False,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
-    """Make a puzzle: pieces, 3MF, preview and report."""
+    """Make a puzzle: pieces, 3MF, preview, viewer and report."""
     with sentences(verbose, quiet):
         options = _options(config, flags)
+        if dry_run:
+            from meshjig.plan import plan_puzzle
+
+            plan = plan_puzzle(mesh, options)
+            print(json.dumps(plan, indent=2) if as_json else as_lines(plan))
+            raise typer.Exit
         from meshjig.output.folder import check_target
         from meshjig.pipeline import make_puzzle
 
@@ -136,24 +145,13 @@ def check(
     Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
     """
     with sentences(verbose, quiet):
-        from meshjig.check import judge
-        from meshjig.output.asked import read_asked
-        from meshjig.output.read import read_pieces
+        from meshjig.rejudge import rejudge
 
-        pieces = read_pieces(paths)
-        asked = read_asked(paths, [name for name, _, _ in pieces])
-        verdict = judge(pieces, **(asked._asdict() | flags))
-        result: dict[str, Any] = {
-            "checks": verdict.checks,
-            "names": verdict.named,
-            "failures": verdict.failures,
-        }
-        result |= {"exempt": verdict.exempt, "ok": verdict.ok}
-        print(
-            json.dumps(result, indent=2) if as_json else as_lines(verdict.checks | {"names": verdict.named})
-        )
-    if not verdict.ok:
-        tell_broken(verdict.failures)
+        result = rejudge(paths, flags)
+        shown = result["checks"] | {key: result[key] for key in ("names", "core") if key in result}
+        print(json.dumps(result, indent=2) if as_json else as_lines(shown))
+    if not result["ok"]:
+        tell_broken(result["failures"])
         raise typer.Exit(BROKEN_PROMISE)
 
 
@@ -184,6 +182,7 @@ def coupon(
 @app.command()
 def view(
     directory: Annotated[Path, typer.Argument(metavar="DIR", help="a folder that meshjig made")],
+    as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
@@ -191,7 +190,9 @@ def view(
     with sentences(verbose, quiet):
         from meshjig.output.viewer import open_viewer
 
-        open_viewer(directory)
+        page = open_viewer(directory)
+        if as_json:
+            print(json.dumps({"viewer": str(page)}))
 
 
 @app.command()

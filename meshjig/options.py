@@ -79,6 +79,8 @@ class Options(BaseModel):
         0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
+    labels: bool = Field(False, description="engrave the number of every piece into its inner side")
+    core: bool = Field(False, description="also make a core, on which the puzzle is built up")
     seed: int = Field(0, ge=0, description="seed of everything random")
     format: tuple[Literal["stl", "ply", "3mf", "obj", "glb"], ...] = Field(
         ("stl", "3mf"), min_length=1, description="file formats to write, separated by commas"
@@ -90,6 +92,7 @@ class Options(BaseModel):
     explode: FiniteFloat = Field(
         0.6, ge=0, description="how far apart the exploded preview is, in distances from the middle"
     )
+    turntable: bool = Field(False, description="also draw turntable.gif, the puzzle from all around")
     curves: bool = Field(
         False, description="also write the cut curves: SVG in the plane, OBJ and DXF in space"
     )

@@ -13,12 +13,12 @@ from meshjig.check import judge, touched_pieces
 from meshjig.check.interlock import interlock
 from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
 from meshjig.errors import OptionError
+from meshjig.finishing import add_core, core_of, finished
 from meshjig.layout import Layout, Parts
 from meshjig.measure import area_vectors, face_areas, sums
 from meshjig.options import Options
 from meshjig.output.coat import coats
 from meshjig.output.colours import colours
-from meshjig.output.printable import printable
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.refusals import refuse_too_small_pieces, refuse_unknown_names
@@ -79,6 +79,9 @@ def make_puzzle(
         with stages("solid"):
             sheets, scan.facts["self_crossings"], crossing = beside.result()
             solids, solid_facts = _solids(surface, layout, parts, sheets, options)
+        with stages("finish"):
+            solids, label_facts = finished(solids, surface, sheets, options)
+            core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
     except BaseException:
         beside.cancel()
         raise
@@ -87,8 +90,9 @@ def make_puzzle(
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [names[i] for i in sorted(touched)]
+        bodies = [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)]
         verdict = judge(
-            [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
+            bodies,
             neighbours=locks.pairs[locks.faces_other(options.clearance)].tolist(),
             thickness=options.thickness,
             clearance=options.clearance,
@@ -97,14 +101,18 @@ def make_puzzle(
         )
         on_surface = parts if options.clearance_method != "solid" else None
         report = assemble_report(options, scan, layout, on_surface, locks, verdict, solids, solid_facts)
-    report["exempt_pieces"] = exempt
+        report["exempt_pieces"] = exempt
+        if options.labels:
+            report["labels"] = label_facts
+        if options.core:
+            add_core(report, core, core_facts, bodies)
     if options.unique:
         report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
     tints, outward = colours(len(solids), locks.pairs), _outer_normals(layout)
     pieces = _named(solids, names, tints, outward, scan, options)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
-    return Puzzle(pieces, report, curves)
+    return Puzzle(pieces, report, curves, core)
 
 
 def _named(
@@ -175,10 +183,10 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
 def _solids(
     surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
 ) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
-    """Give the pieces their thickness, as files can hold it."""
+    """Give the pieces their thickness."""
     cut = parts.cut
     outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
     facts["discarded_volume_share"] += parts.discarded
-    return [printable(V, F) for V, F in made], {**sheets.facts, **facts}
+    return made, {**sheets.facts, **facts}

@@ -47,6 +47,7 @@ class Puzzle:
     pieces: list[Piece]
     report: dict[str, Any]
     curves: Curves = field(default_factory=Curves)
+    core: list[named.Piece] = field(default_factory=list)  # parts of what it is built up on, where asked for
 
     def save(
         self,
@@ -87,7 +88,8 @@ class Puzzle:
                 space_curves=self.curves.space,
                 preview=preview,
                 viewer=viewer,
-                **{key: asked[key] for key in ("plate", "nest", "explode") if key in asked},
+                core=self.core,
+                **{key: asked[key] for key in ("plate", "nest", "explode", "turntable") if key in asked},
             )
         )
         return Path(directory)

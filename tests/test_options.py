@@ -48,7 +48,8 @@ def test_formats_are_a_list_with_commas():
 def test_every_option_is_a_flag():
     flags = set(inspect.signature(make).parameters)
     assert set(Options.model_fields) <= flags
-    assert flags - set(Options.model_fields) == {"mesh", "output", "config", "as_json", "verbose", "quiet"}
+    own = {"mesh", "output", "config", "dry_run", "as_json", "verbose", "quiet"}
+    assert flags - set(Options.model_fields) == own
 
 
 OWN = {"resin-x": {"clearance": 0.12, "min-wall": 0.6}}

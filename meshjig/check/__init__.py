@@ -2,6 +2,7 @@
 
 from meshjig.check.areas import area_cv, area_error
 from meshjig.check.closed import as_stl, is_closed, is_closed_as_stl, is_one_component, volume
+from meshjig.check.core import add_failures, judge_core
 from meshjig.check.crossings import crossing_depth, self_intersections
 from meshjig.check.gap import Gap, gaps
 from meshjig.check.judge import Verdict, judge
@@ -15,6 +16,7 @@ __all__ = [
     "Overlaps",
     "Thickness",
     "Verdict",
+    "add_failures",
     "area_cv",
     "area_error",
     "as_stl",
@@ -24,6 +26,7 @@ __all__ = [
     "is_closed_as_stl",
     "is_one_component",
     "judge",
+    "judge_core",
     "measure_thickness",
     "outer_gap",
     "overlaps",

@@ -22,7 +22,7 @@ from meshjig.types import Floats, Ints, Mesh
 __all__ = ["make_core"]
 
 _CELLS = 125  # along the largest extent
-_AIM = 1.05  # of the clearance: the gap is known in many places, not in all
+_AIM = 1.1  # of the clearance: the gap is known in many places, not in all
 _MOST_CUTS = 12  # along an axis
 
 

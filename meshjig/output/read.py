@@ -16,7 +16,7 @@ from meshjig.output.read_3mf import read_3mf
 from meshjig.output.read_parts import is_own_obj, read_glb, read_own_obj
 from meshjig.types import Floats, Ints
 
-__all__ = ["read_pieces"]
+__all__ = ["read_core", "read_pieces"]
 
 MESHES = (".stl", ".obj", ".ply")  # a piece a file, but for an OBJ that meshjig wrote
 PACKAGES = (".3mf", ".glb")
@@ -52,6 +52,28 @@ def read_pieces(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
     for path in (file for item in given for file in _files(Path(item))):
         pieces += _read(path)
     return pieces
+
+
+def read_core(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[NamedPiece]:
+    """Read the parts of the core that meshjig wrote beside the pieces.
+
+    Parameters
+    ----------
+    paths : path, or several
+        As for `read_pieces`. Only a single folder has a core.
+
+    Returns
+    -------
+    list of (name, V, F), empty where there is none
+
+    Raises
+    ------
+    InputError
+        A file can't be read.
+    """
+    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    files = _meshes(Path(given[0]) / "core") if len(given) == 1 else []
+    return [part for file in files for part in _read(file)]
 
 
 def _read(path: Path) -> list[NamedPiece]:

@@ -16,6 +16,7 @@ from meshjig.types import Floats
 __all__ = ["FORMATS", "save_puzzle"]
 
 FORMATS = ("stl", "ply", "3mf", "obj", "glb")
+CORE = "core"  # its folder
 
 
 def save_puzzle(
@@ -31,6 +32,8 @@ def save_puzzle(
     plate: str | None = None,
     nest: Literal["fast", "tight"] = "fast",
     explode: float = 0.6,
+    turntable: bool = False,
+    core: Sequence[Piece] = (),
 ) -> dict[str, Any]:
     """Write a puzzle to a folder that appears whole or not at all.
 
@@ -46,7 +49,9 @@ def save_puzzle(
     preview : bool, also draw preview.png
     viewer : bool, also write viewer.html
     plate, nest : str, also lay the pieces on plates, see `write_plates`
-    explode : float, how far apart the exploded pieces of the preview are
+    explode : float, how far apart the exploded pieces of the preview, and of a second GLB, are
+    turntable : bool, also draw turntable.gif
+    core : sequence of Piece, what the puzzle is built up on, written to core/
 
     Returns
     -------
@@ -65,13 +70,19 @@ def save_puzzle(
     seconds = dict(report["timings_s"])
     with replace_folder(directory) as folder:
         with _lap(seconds, "write"):
-            _write_meshes(folder, pieces, formats)
+            _write_meshes(folder, pieces, formats, explode)
+            _write_core(folder, core)
             _write_curves(folder, plane_curves, space_curves)
         if preview:
             from meshjig.output.preview import preview as draw
 
             with _lap(seconds, "preview"):
                 draw(pieces, folder / "preview.png", apart=explode)
+        if turntable:
+            from meshjig.output.turntable import write_turntable
+
+            with _lap(seconds, "turntable"):
+                write_turntable(folder / "turntable.gif", pieces)
         plates: dict[str, int] | None = None
         if plate is not None:
             from meshjig.output.plates import write_plates
@@ -110,7 +121,7 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
     seconds[name] = time.perf_counter() - start
 
 
-def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str]) -> None:
+def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str], explode: float) -> None:
     if {"stl", "ply"} & set(formats):
         (folder / "pieces").mkdir()
     if "ply" in formats:
@@ -132,9 +143,21 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str])
 
         write_obj(folder / "puzzle.obj", pieces)
     if "glb" in formats:
+        from meshjig.output.explode import explode_pieces
         from meshjig.output.glb import write_glb
 
         write_glb(folder / "puzzle.glb", pieces)
+        write_glb(folder / "exploded.glb", explode_pieces(pieces, explode))
+
+
+def _write_core(folder: Path, core: Sequence[Piece]) -> None:
+    if not core:
+        return
+    from meshjig.output.stl import write_stl
+
+    (folder / CORE).mkdir()
+    for part in core:
+        write_stl(folder / CORE / f"{part.name}.stl", part.V, part.F, part.name)
 
 
 def _write_curves(folder: Path, plane: Sequence[Floats], space: Sequence[Floats]) -> None:

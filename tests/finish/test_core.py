@@ -60,7 +60,7 @@ def test_core_is_sound_and_keeps_its_gap(name, clearance):
     least = walls.min_gap(core, 5.0)
     assert least >= 0.97 * clearance
     assert facts["gap_mm"]["min"] >= 0.97 * clearance
-    assert facts["gap_mm"]["median"] <= (1.5 if name == "noisy" else 1.15) * clearance
+    assert facts["gap_mm"]["median"] <= (1.5 if name == "noisy" else 1.2) * clearance
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "box", "bowl"])

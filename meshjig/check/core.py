@@ -1,0 +1,94 @@
+"""The promises of a core: sound parts, clear of every piece."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from meshjig.check.arrays import boxes, close_boxes, sound_piece
+from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
+from meshjig.check.crossings import self_intersections
+from meshjig.check.judge import GAP_SHARE, OVERLAP_MM3
+from meshjig.check.solids import bodies
+
+__all__ = ["add_failures", "judge_core"]
+
+
+def judge_core(
+    core: Sequence[Sequence[Any]],
+    pieces: Sequence[Sequence[Any]],
+    *,
+    clearance: float | None = None,
+    exempt_pieces: Collection[str] = (),
+) -> tuple[dict[str, Any], dict[str, list[str]]]:
+    """Judge the parts of a core, and how far they stay from the pieces.
+
+    Each part keeps the promises of a piece (see `judge`) but for thickness; parts that touch where the
+    core was cut in two may do so. No piece shares space with a part, and none comes nearer than
+    0.95 of the clearance.
+
+    Parameters
+    ----------
+    core, pieces : list of (name, V, F)
+        V (n, 3), mm; F (m, 3).
+    clearance : float, mm, optional
+    exempt_pieces : names of pieces that may be too near
+
+    Returns
+    -------
+    facts : dict
+        "gap_mm": least distance of a part and a piece, None where none is within 1 mm or three
+        clearances; "overlap_mm3"; "self_intersections".
+    failures : dict
+        Names of promises, each with the parts that break it, and pieces they break it with.
+
+    Raises
+    ------
+    InputError
+        Arrays that are no mesh with finite coordinates.
+    """
+    names = [str(name) for name, _, _ in (*core, *pieces)]
+    meshes = [sound_piece(V, F, str(name)) for name, V, F in (*core, *pieces)]
+    failures: dict[str, list[str]] = {}
+
+    def hold(promise: str, broken: Iterable[tuple[int, ...]]) -> None:
+        found = {i for together in broken for i in together}
+        if found:
+            failures[promise] = [names[i] for i in sorted(found)]
+
+    own = range(len(core))
+    crossings = [len(self_intersections(*meshes[i])) for i in own]
+    hold("closed", [(i,) for i in own if not is_closed_as_stl(*meshes[i])])
+    hold("one_component", [(i,) for i in own if not is_one_component(meshes[i][1])])
+    hold("positive_volume", [(i,) for i in own if volume(*meshes[i]) <= 0])
+    hold("self_intersections", [(i,) for i in own if crossings[i]])
+
+    reach = max(1.0, 3 * (clearance or 0.0))
+    solid, spared = bodies(meshes), set(exempt_pieces)
+    pairs = close_boxes(*boxes(meshes), reach)
+    shared, least = {}, {}
+    for i, j in pairs[(pairs[:, 0] < len(core)) & (pairs[:, 1] >= len(core))].tolist():
+        if solid[i] is None or solid[j] is None or names[j] in spared:
+            continue
+        least[i, j] = float(solid[i].min_gap(solid[j], reach))
+        if least[i, j] == 0:
+            shared[i, j] = float((solid[i] ^ solid[j]).volume())
+    hold("overlap_mm3", [pair for pair, mm3 in shared.items() if mm3 > OVERLAP_MM3])
+    if clearance:
+        hold("gap_mm", [pair for pair, gap in least.items() if gap < GAP_SHARE * clearance])
+    nearest = min(least.values(), default=np.inf)
+    facts = {
+        "gap_mm": nearest if nearest < reach else None,
+        "overlap_mm3": sum(shared.values()),
+        "self_intersections": sum(crossings),
+    }
+    return facts, failures
+
+
+def add_failures(failures: dict[str, list[str]], more: dict[str, list[str]]) -> None:
+    """Add to the names of promises those that others break, each name once."""
+    for promise, names in more.items():
+        own = failures.setdefault(promise, [])
+        own += [name for name in names if name not in own]

@@ -1,0 +1,47 @@
+"""Judge a puzzle by its files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from meshjig.check import add_failures, judge, judge_core
+from meshjig.output.asked import read_asked
+from meshjig.output.read import read_core, read_pieces
+
+__all__ = ["rejudge"]
+
+
+def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str, Any]:
+    """Judge finished pieces, and the core where there is one, by their files alone.
+
+    Parameters
+    ----------
+    paths : see `meshjig.output.read.read_pieces`
+    asked_instead : mapping
+        Any of thickness, clearance, min_wall in mm, in place of what a report.json there says.
+
+    Returns
+    -------
+    dict
+        "checks", "names", "failures", "exempt": see `meshjig.check.Verdict`; "core", where there is one:
+        see `meshjig.check.judge_core`; "ok": bool.
+
+    Raises
+    ------
+    InputError
+        Nothing found, or a file that can't be read.
+    """
+    pieces = read_pieces(list(paths))
+    asked = read_asked(list(paths), [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
+    verdict = judge(pieces, **asked)
+    result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
+    result["exempt"] = verdict.exempt
+    core = read_core(list(paths))
+    if core:
+        result["core"], broken = judge_core(
+            core, pieces, clearance=asked["clearance"], exempt_pieces=asked["exempt_pieces"]
+        )
+        add_failures(result["failures"], broken)
+    return result | {"ok": not result["failures"]}
