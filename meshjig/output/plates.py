@@ -148,7 +148,7 @@ def _laid(piece: Piece, V: Floats, pose: Pose, shadow: Any, turn: float, shift: 
     cos, sin = float(np.cos(turn)), float(np.sin(turn))
     W = V @ np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]]) + np.array([*shift, 0.0])
     W, F = printable(W, piece.F)
-    same = len(F) == len(piece.F)
+    same = np.array_equal(F, piece.F)
     moved = replace(piece, V=W, F=F, coat=piece.coat if same else None)
     outline = affinity.affine_transform(shadow, [cos, -sin, sin, cos, *shift])
     return Laid(moved, plate + 1, pose, outline)

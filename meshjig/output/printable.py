@@ -3,6 +3,7 @@
 import numpy as np
 
 from meshjig.errors import OutputError
+from meshjig.output.needles import without_needles
 from meshjig.topology import compact, edges
 from meshjig.types import Bools, Floats, Ints
 
@@ -16,8 +17,9 @@ def printable(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     """Make a solid survive being written as STL and read back.
 
     Coordinates are rounded as STL rounds them. Edges shorter than 0.0001 mm are collapsed where that keeps
-    the surface a surface (the link condition). Points that still coincide, such as the two sides of a
-    pinch, are moved apart by a few units in the last place, each towards its own neighbours.
+    the surface a surface (the link condition); triangles lower than that are flipped away. Points that
+    still coincide, such as the two sides of a pinch, are moved apart by a few units in the last place,
+    each towards its own neighbours.
 
     Parameters
     ----------
@@ -40,7 +42,7 @@ def printable(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     if not _is_closed(F):
         F = _without_degenerate(_first_equal(_rounded(V))[F])
     V = _rounded(V)
-    F = _without_short_edges(V, F)
+    F = without_needles(V, _without_short_edges(V, F), _SHORTEST)
     F, kept = compact(F)
     return _moved_apart(V[kept], F), F
 
