@@ -26,6 +26,8 @@ class Gap:
     pairs: list[tuple[int, int, float | None]]  # least distance of two neighbours, mm; None: no manifold
     samples: Floats  # (k,), mm, spread evenly over the walls
     sample_pair: Ints  # (k, 2), the pieces on both sides of a sample, lower first
+    sample_face: Ints  # (k,), the face of all pieces' that a sample lies on
+    at: Floats  # (k, 3), mm, where samples are
 
     @property
     def min(self) -> float | None:
@@ -113,7 +115,7 @@ def gap_between_bodies(
     found : bool, the pairs are guesses: those farther apart than the reach are no neighbours
     """
     pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
-    walls, between, bounds = _wall_distances(pieces, pairs, reach)
+    walls, between, face, at, bounds = _wall_distances(pieces, pairs, reach)
     measured: list[tuple[int, int, float | None]] = []
     for i, j in pairs.tolist():
         if bodies[i] is None or bodies[j] is None:
@@ -124,16 +126,16 @@ def gap_between_bodies(
         distance = float(bodies[i].min_gap(bodies[j], bound))
         if not found or distance < reach:
             measured.append((i, j, min(distance, reach)))
-    return Gap(measured, walls, between)
+    return Gap(measured, walls, between, face, at)
 
 
 def _wall_distances(
     pieces: Sequence[Piece], pairs: Ints, reach: float
-) -> tuple[Floats, Ints, dict[tuple[int, int], float]]:
+) -> tuple[Floats, Ints, Ints, Floats, dict[tuple[int, int], float]]:
     """Give the distance from points all over the walls to the nearest neighbour, (k,), mm.
 
-    Also give the two pieces of each, (k, 2), and the least distance met between two pieces, on walls or
-    elsewhere.
+    Also give the two pieces of each, (k, 2), its face, (k,), and place, (k, 3); and the least distance met
+    between two pieces, on walls or elsewhere.
     """
     s = soup(pieces)
     P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
@@ -159,7 +161,7 @@ def _wall_distances(
             bounds[int(i), int(j)] = float(distance.min(where=opposite[own] == j, initial=np.inf))
     wall = facing & _of_walls(smooth_regions(s)[face], facing)
     ends = np.stack([s.piece[face[wall]], opposite[wall]], 1)
-    return gap[wall], np.sort(ends, axis=1), bounds
+    return gap[wall], np.sort(ends, axis=1), face[wall], P[wall], bounds
 
 
 def _of_walls(region: Ints, facing: Bools) -> Bools:

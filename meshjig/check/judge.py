@@ -14,6 +14,7 @@ from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
 from meshjig.check.crossings import self_intersections
 from meshjig.check.gap import Gap, default_reach, gap_between_bodies
 from meshjig.check.overlap import overlaps_of_bodies
+from meshjig.check.sheets import without_sheets
 from meshjig.check.solids import bodies
 from meshjig.check.thickness import Thickness, measure_thickness
 from meshjig.errors import InputError
@@ -63,7 +64,8 @@ def judge(
     - ``gap_mm``: the least distance of two neighbours, which is exact, is at least 0.95 of the clearance;
     - ``gap_wide_mm``: the median of what was sampled between all neighbours is at most 1.1 of the
       clearance, and between any two at most 1.25, as is their least distance; only where neighbours are
-      named, since pieces far apart are none otherwise;
+      named, since pieces far apart are none otherwise; sheets that face each other are left out where
+      the thickness is known;
     - ``thickness_mm``: a piece's median, by rays from some 1,000 points, is 0.8 to 1.25 of the thickness.
 
     The last three hold only where clearance and thickness are known.
@@ -132,7 +134,10 @@ def judge(
     if clearance:
         narrow = GAP_SHARE * clearance
         hold("gap_mm", [(i, j) for i, j, least in gap.pairs if least is not None and least < narrow])
-        hold("gap_wide_mm", _wide(gap, clearance) if pairs is not None else [])
+        wide = _wide(gap, clearance) if pairs is not None else []
+        if wide and thickness:
+            wide = _wide(without_sheets(gap, meshes, wide, THICKNESS_SHARE[1] * thickness), clearance)
+        hold("gap_wide_mm", wide)
     facts = sheets.facts(thickness)
     if thickness and not _within(facts["median"], thickness):
         hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(meshes))])

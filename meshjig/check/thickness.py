@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.check.arrays import Piece
+from meshjig.check.rays import first_hit, scene_of
 from meshjig.check.samples import Soup, area_samples, soup
 from meshjig.types import Bools, Floats, Ints
 
@@ -18,7 +19,6 @@ _SAMPLES_A_PIECE = 1000
 _OPPOSITE = -0.5  # cosine between the normals where a ray goes in and where it comes out
 _FACING = -0.8  # cosine between the normals of two walls that face each other
 _WALL_REACH = 1.0  # mm; a wall has another piece before it, no farther than this
-_SKIN = 1e-3  # mm; rays start this far from the surface, since Embree works in float32
 
 
 @dataclass(frozen=True)
@@ -67,14 +67,10 @@ def measure_thickness(pieces: Sequence[Piece]) -> Thickness:
     Both sheets are sampled. The rim of an open surface faces nobody and counts as sheet: that is why
     the figures to rely on are p1 and the median.
     """
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
-
     s = soup(pieces)
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, s.V[s.F].astype(np.float32))
+    scene = scene_of(s)
     P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
-    exit_face, way = _first_hit(scene, s, P, -s.N[face])
+    exit_face, way = first_hit(scene, s, P, -s.N[face])
     through = (exit_face >= 0) & (s.piece[exit_face] == s.piece[face])
     through &= np.einsum("ij,ij->i", s.N[exit_face], s.N[face]) <= _OPPOSITE
     P, face, exit_face, way = P[through], face[through], exit_face[through], way[through]
@@ -85,20 +81,6 @@ def measure_thickness(pieces: Sequence[Piece]) -> Thickness:
 
 def _on_wall(scene: Any, s: Soup, P: Floats, face: Ints) -> Bools:
     """Tell which points of the surface have another piece right before them, (k,) bool."""
-    across, distance = _first_hit(scene, s, P, s.N[face])
+    across, distance = first_hit(scene, s, P, s.N[face])
     wall = (across >= 0) & (s.piece[across] != s.piece[face]) & (distance < _WALL_REACH)
     return wall & (np.einsum("ij,ij->i", s.N[across], s.N[face]) <= _FACING)
-
-
-def _first_hit(scene: Any, s: Soup, P: Floats, direction: Floats) -> tuple[Ints, Floats]:
-    """Shoot rays from points of the surface; give the faces they meet, -1 for none, and the way there.
-
-    The way is measured to the plane of the face in double precision.
-    """
-    origin = P + _SKIN * direction
-    face = np.asarray(scene.run(origin.astype(np.float32), direction.astype(np.float32)), np.int64)
-    toward = np.einsum("ij,ij->i", s.N[face], direction)
-    height = np.einsum("ij,ij->i", s.N[face], s.V[s.F[face, 0]] - P)
-    flat = np.abs(toward) < 1e-6
-    way = np.where(flat, np.inf, height / np.where(flat, 1.0, toward))
-    return np.where(way > 0, face, -1), way

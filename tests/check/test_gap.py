@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from meshjig.check import gaps
+from meshjig.check import gaps, judge
+from meshjig.check.sheets import without_sheets
 from tests.check.pieces import box, hemisphere_shells, turned
 
 LEFT = box([0, 0, 0], [10, 10, 2], 6)
@@ -98,3 +99,29 @@ def test_samples_know_their_pieces():
     assert (count > 100).all()
     assert measured.wide(0.25) == []
     assert measured.wide(0.15) == [(0, 1), (1, 2)]
+
+
+def fin(gap):
+    """Two plates, 2 mm thick, one upon the other: within 0.2 mm along a border, farther apart elsewhere."""
+    front, back = box([0, 0, 0], [30, 30, 2], 30), box([0, 0, 2], [30, 30, 4], 30)
+    for half, way in ((front, -1), (back, 1)):
+        inner = (half.V[:, 2] == 2) & (half.V[:, 0] > 1.5)
+        half.V[half.V[:, 2] == 2, 2] += 0.1 * way
+        half.V[inner, 2] += way * gap / 2
+    return front, back
+
+
+def test_sheets_that_face_each_other_inside_a_fin_are_no_wide_gap():
+    halves = fin(0.4)
+    measured = gaps(halves, neighbours=np.array([[0, 1]]), clearance=0.2)
+    assert measured.wide(0.25) == [(0, 1)]
+    assert without_sheets(measured, halves, [(0, 1)], 2.5).wide(0.25) == []
+    verdict = judge(halves, neighbours=[(0, 1)], clearance=0.2, thickness=2.0)
+    assert "gap_wide_mm" not in verdict.failures
+
+
+def test_walls_too_far_apart_are_no_sheets():
+    row = [box([10.4 * k, 0, 0], [10.4 * k + 10, 10, 2], 10) for k in range(2)]
+    measured = gaps(row, neighbours=np.array([[0, 1]]), clearance=0.2)
+    assert without_sheets(measured, row, [(0, 1)], 2.5).wide(0.25) == [(0, 1)]
+    assert len(without_sheets(measured, row, [(0, 1)], 2.5).samples) == len(measured.samples)
