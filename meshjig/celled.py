@@ -14,6 +14,7 @@ from meshjig.options import Options
 from meshjig.progress import Stages
 from meshjig.stitch import region_graph, stitch
 from meshjig.types import Atlas, Floats, Mesh
+from meshjig.unique import LEAST_DIFFERENCE, clashes
 
 __all__ = ["cell_layout"]
 
@@ -21,6 +22,9 @@ log = logging.getLogger("meshjig")
 
 PASSES = 2  # the second makes cells larger or smaller by what their knobs take and give
 MANY = 600  # cells from which one pass has to do: knobs come out even among so many, and time counts
+REDRAWN = 6  # times that all knobs are drawn, where each has to be unique
+DIFFERENT = 0.5  # how random they are then, at least
+AFAR = 1_000_003  # between the seeds of two drawings
 NEVER = 2.0  # a share of a border that no two pieces have: cells are whole as they are
 
 
@@ -41,12 +45,37 @@ def cell_layout(surface: Mesh, options: Options, stages: Stages) -> Layout:
         wanted = _wanted_areas(cells, knobs)
         cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
     log.info("cells: %s; knobs: %s", cells.facts, knobs.facts)
+    layout = _cut(cells, atlas, knobs, area / n, options, stages)
+    return _without_clashes(layout, cells, atlas, size, options, stages) if options.unique else layout
+
+
+def _cut(
+    cells: CellMesh, atlas: Atlas, knobs: KnobLayout, mean_area: float, options: Options, stages: Stages
+) -> Layout:
     with stages("cut"):
         cut = overlay(atlas, knobs.outlines)
     with stages("stitch"):
-        stitching = stitch(region_graph(cut), NEVER, area / n, smallest=options.min_piece)
+        stitching = stitch(region_graph(cut), NEVER, mean_area, smallest=options.min_piece)
     atlas = Atlas(atlas.mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, atlas.facts | knobs.facts)
     return Layout(atlas, knobs.outlines, knobs.knobs, cut, stitching, cells)
+
+
+def _without_clashes(
+    layout: Layout, cells: CellMesh, atlas: Atlas, size: float, options: Options, stages: Stages
+) -> Layout:
+    """Draw all knobs anew for as long as borders look alike, and give the layout with the fewest such."""
+    best, fewest = layout, np.inf
+    for draw in range(1, REDRAWN + 1):
+        with stages("unique"):
+            alike = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]["congruent_borders"]
+        if alike < fewest:
+            best, fewest = layout, alike
+        if not alike or draw == REDRAWN:
+            break
+        with stages("knobs"):
+            knobs = _knobs(atlas, size, options, seed=options.seed + draw * AFAR)
+        layout = _cut(cells, atlas, knobs, size**2, options, stages)
+    return best
 
 
 def _grown(
@@ -71,17 +100,23 @@ def _grown(
         )
         atlas = cell_atlas(cells)
     with stages("knobs"):
-        knobs = knob_outlines(
-            atlas,
-            size=size,
-            knob_size=options.knob_size,
-            min_neck=options.min_neck + options.clearance,
-            random=options.random,
-            crease_aware=options.crease_aware,
-            seed=options.seed,
-            like=like,
-        )
+        knobs = _knobs(atlas, size, options, seed=options.seed, like=like)
     return cells, atlas, knobs
+
+
+def _knobs(
+    atlas: Atlas, size: float, options: Options, *, seed: int, like: KnobLayout | None = None
+) -> KnobLayout:
+    return knob_outlines(
+        atlas,
+        size=size,
+        knob_size=options.knob_size,
+        min_neck=options.min_neck + options.clearance,
+        random=max(options.random, DIFFERENT if options.unique else 0.0),
+        crease_aware=options.crease_aware,
+        seed=seed,
+        like=like,
+    )
 
 
 def _wanted_areas(cells: CellMesh, knobs: KnobLayout) -> Floats:

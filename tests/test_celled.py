@@ -11,6 +11,7 @@ from meshjig.progress import Stages
 from meshjig.scan import refine_long_edges
 from meshjig.topology import is_disc
 from meshjig.types import Mesh
+from meshjig.unique import clashes
 from tests.meshes import half_sphere, sphere, torus, two_components
 
 SHAPES = {"closed": sphere, "handle": torus, "rim": half_sphere, "parts": two_components}
@@ -56,3 +57,8 @@ def test_the_same_seed_gives_the_same_cells_and_another_one_others():
     assert np.array_equal(one.cut.F, again.cut.F)
     assert np.array_equal(one.cut.V, again.cut.V)
     assert not np.array_equal(one.cut.V[: len(other.cut.V)], other.cut.V[: len(one.cut.V)])
+
+
+def test_no_border_looks_like_another_where_pieces_are_to_be_unique():
+    assert clashes(laid_out(sphere), 0.15)[1]["congruent_borders"] > 0
+    assert clashes(laid_out(sphere, unique=True), 0.15)[1]["congruent_borders"] == 0
