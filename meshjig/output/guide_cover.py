@@ -1,0 +1,120 @@
+"""The cover of the guide: what the puzzle will be, and how to read on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.output.guide_sheet import LEFT, RIGHT, WIDTH, Sheets, text_width
+from meshjig.output.piece import Piece
+from meshjig.output.render import render
+from meshjig.output.scene import scene_of
+from meshjig.output.together import together
+from meshjig.output.view import View, guess_up, view_of
+
+__all__ = ["cover_of_preview", "draw_cover", "draw_whole", "title_of"]
+
+_PICTURE = 132.0  # mm, each side
+_SIDE = (30.0, 18.0)  # azimuth and elevation, degrees
+_TITLE = 30.0  # points; less where a name is long
+_BOOK = (
+    "In every picture the pieces placed so far are pale; the new ones are hatched, have dark borders and "
+    "carry their numbers. The lightest shape behind is the finished model. A step that can't be shown from "
+    "one side has more pictures."
+)
+_UNVERIFIED = (
+    "The order goes from the bottom up, each piece beside one that is there already. Nobody has made sure "
+    "that every piece can get to its place in it: where one does not go in, put it in before its neighbours."
+)
+_VERIFIED = "The order was checked: in it, every piece can get to its place."
+
+
+def title_of(report: Mapping[str, Any]) -> str:
+    """Give the name of the model's file, or Puzzle."""
+    name = report.get("input", {}).get("file")
+    return Path(str(name)).stem if name else "Puzzle"
+
+
+def cover_of_preview(path: Path) -> NDArray[np.uint8]:
+    """Cut the first of the four pictures out of preview.png: the puzzle put together."""
+    from PIL import Image
+
+    with Image.open(path) as sheet:
+        return np.asarray(sheet.crop((0, 0, sheet.width // 2, sheet.height // 2)).convert("RGB"))
+
+
+def draw_whole(pieces: Sequence[Piece], size: int = 800) -> NDArray[np.uint8]:
+    """Draw the puzzle put together, (size, size, 3), as the preview does."""
+    V, F, _, piece_of_face = together(pieces)
+    tint = [np.tile(p.colour, (len(p.F), 1)) if p.coat is None else p.coat.rgb.mean(axis=1) for p in pieces]
+    scene = scene_of(V, F, np.concatenate(tint), piece_of_face)
+    view = view_of(V, guess_up(V, F), *_SIDE)
+    return render(scene, View(view.eye, view.axes, view.centre, 1.08 * view.half), size)
+
+
+def draw_cover(
+    sheets: Sheets,
+    pieces: Sequence[Piece],
+    report: Mapping[str, Any],
+    picture: NDArray[np.uint8],
+    contents: Sequence[tuple[str, int]],
+    *,
+    n_plates: int,
+    verified: bool,
+) -> None:
+    """Draw the first page.
+
+    Parameters
+    ----------
+    sheets : Sheets
+    pieces : sequence of Piece
+    report : mapping
+        Its ``input`` and ``options`` are told of, as far as they are there.
+    picture : (k, k, 3) uint8
+    contents : sequence of (str, int), chapters and their pages
+    n_plates : int, 0 where pieces were not laid on plates
+    verified : bool, somebody made sure that the order works
+    """
+    title = title_of(report)
+    size = min(_TITLE, _TITLE * (RIGHT - LEFT) / text_width(title, _TITLE, strong=True))
+    sheets.text(LEFT, 38, title, size, strong=True)
+    sheets.text(LEFT, 47, f"A jigsaw puzzle of {_count(len(pieces), 'piece')}, in three dimensions", 13, grey=0.3)
+    sheets.picture((WIDTH - _PICTURE) / 2, 54, _PICTURE, _PICTURE, picture)
+    facts = _facts(pieces, report, n_plates)
+    each = (RIGHT - LEFT) / len(facts)
+    sheets.line(LEFT, 193, RIGHT, 193, grey=0.6)
+    for k, (what, value) in enumerate(facts):
+        sheets.text(LEFT + k * each, 200, what, 8, grey=0.35)
+        sheets.text(LEFT + k * each, 206, value, 11, strong=True)
+    sheets.line(LEFT, 211, RIGHT, 211, grey=0.6)
+    y = 222.0
+    sheets.text(LEFT, y, "How to read this guide", 11, strong=True)
+    y = sheets.paragraph(LEFT, y + 6, 112, _BOOK)
+    sheets.paragraph(LEFT, y + 2, 112, _VERIFIED if verified else _UNVERIFIED)
+    y, left = 222.0, LEFT + 126
+    sheets.text(left, y, "Contents", 11, strong=True)
+    for chapter, page in contents:
+        y += 6
+        sheets.text(left, y, chapter, 9, grey=0.2)
+        sheets.text(RIGHT, y, str(page), 9, align="right", grey=0.2)
+
+
+def _facts(pieces: Sequence[Piece], report: Mapping[str, Any], n_plates: int) -> list[tuple[str, str]]:
+    low = np.min([piece.V.min(axis=0) for piece in pieces], axis=0)
+    high = np.max([piece.V.max(axis=0) for piece in pieces], axis=0)
+    facts = [("Size", " × ".join(f"{side:.0f}" for side in high - low) + " mm")]
+    options = report.get("options", {})
+    facts += [
+        (name.capitalize(), f"{options[name]:g} mm") for name in ("thickness", "clearance") if name in options
+    ]
+    if n_plates:
+        facts.append(("Printed on", _count(n_plates, "plate")))
+    return facts
+
+
+def _count(n: int, what: str) -> str:
+    return f"{n} {what}{'' if n == 1 else 's'}"

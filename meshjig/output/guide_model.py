@@ -1,0 +1,113 @@
+"""A puzzle made light for small pictures, its faces in the order in which pieces are placed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshjig.measure import area_vectors
+from meshjig.output.piece import Piece
+from meshjig.output.scene import Scene, scene_of, shifted
+from meshjig.output.together import together
+from meshjig.output.view import guess_up
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["LightModel", "light_model", "outward_of"]
+
+_GRAIN = 0.0125  # of the model's largest extent: what small pictures don't show
+
+
+@dataclass(frozen=True)
+class LightModel:
+    """All pieces, roughly, ready to be looked at step by step."""
+
+    scene: Scene  # of all pieces; its ids are those of the pieces, counted from 0
+    V: Floats  # (n, 3), mm
+    middle: Floats  # (m, 3), of the faces, mm
+    area_vector: Floats  # (m, 3), mm2, outward
+    outside: Bools  # (m,), the face is on the outer side of its piece
+    up: Floats  # (3,)
+    first_vertex: Ints  # (s + 1,), where the vertices of each step begin
+    first_face: Ints  # (s + 1,)
+
+    def until(self, step: int) -> Scene:
+        """Give the scene of all pieces placed up to and in a step, counted from 0."""
+        scene, n, m = self.scene, int(self.first_vertex[step + 1]), int(self.first_face[step + 1])
+        part = replace(
+            scene,
+            F=scene.F[:m],
+            face_normal=scene.face_normal[:m],
+            colour=scene.colour[:m],
+            id=scene.id[:m],
+        )
+        return shifted(part, self.V[:n])
+
+
+def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> LightModel:
+    """Make a puzzle light: points of a piece that lie close together become one.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece, at least one
+    steps : sequence of sequence of int
+        Which pieces are placed in each step, counted from 1.
+
+    Returns
+    -------
+    LightModel
+        Without the pieces that are in no step.
+    """
+    V, F, piece_of_vertex, piece_of_face = together(pieces)
+    turn = _turns(len(pieces), steps)
+    outward = outward_of(pieces)
+    outer = np.ones(len(V), bool)
+    outer[F] = (np.einsum("ij,ij->i", area_vectors(V, F), outward[piece_of_face]) > 0)[:, None]
+    cell = _cells(V, 2 * turn[piece_of_vertex] + outer)
+    W = np.stack([np.bincount(cell, x) for x in V.T], 1) / np.bincount(cell)[:, None]
+    owner = np.empty(len(W), np.int64)
+    owner[cell] = piece_of_vertex
+    G = cell[F]
+    G = G[(G[:, 0] != G[:, 1]) & (G[:, 1] != G[:, 2]) & (G[:, 2] != G[:, 0])]
+    G = G[np.argsort(turn[owner[G[:, 0]]], kind="stable")]
+    n_placed = np.cumsum([0, *map(len, steps)])
+    first_vertex, first_face = (np.searchsorted(turn[x], n_placed) for x in (owner, owner[G[:, 0]]))
+    G, piece = G[: first_face[-1]], owner[G[: first_face[-1], 0]]
+    A = area_vectors(W, G) / 2
+    scene = scene_of(W, G, np.ones((len(G), 3)), piece)
+    return LightModel(
+        scene,
+        W,
+        W[G].mean(axis=1),
+        A,
+        np.einsum("ij,ij->i", A, outward[piece]) > 0,
+        guess_up(V, F),
+        first_vertex,
+        first_face,
+    )
+
+
+def _turns(n: int, steps: Sequence[Sequence[int]]) -> Ints:
+    """Give when each piece's turn is, (n,); n for those that are never placed."""
+    turn = np.full(n, n)
+    row = [piece - 1 for step in steps for piece in step]
+    turn[row] = np.arange(len(row))
+    return turn
+
+
+def _cells(V: Floats, rank: Ints) -> Ints:
+    """Number the cubes of a grid that hold points of the same rank, lower ranks first, (n,)."""
+    grain = max(_GRAIN * float(np.ptp(V, axis=0).max()), 1e-9)
+    x, y, z = np.floor((V - V.min(axis=0)) / grain).astype(np.int64).T
+    size = int(1 / _GRAIN) + 2
+    _, number = np.unique(((rank * size + x) * size + y) * size + z, return_inverse=True)
+    return number
+
+
+def outward_of(pieces: Sequence[Piece]) -> Floats:
+    """Give where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
+    middles = np.array([piece.V.mean(axis=0) for piece in pieces])
+    away = middles - middles.mean(axis=0)
+    told = [piece.outer_normal for piece in pieces]
+    return np.array([x if normal is None else normal for x, normal in zip(away, told, strict=True)])

@@ -1,0 +1,130 @@
+"""The pages of the guide that show, step by step, which pieces go where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshjig.output.guide_labels import Label, place_labels
+from meshjig.output.guide_model import light_model
+from meshjig.output.guide_picture import Frame, draw_step, silhouette
+from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, tag_size, text_width, wrapped
+from meshjig.output.guide_views import Camera, cameras, choose_cameras
+from meshjig.output.piece import Piece
+from meshjig.types import Bools
+
+__all__ = ["steps_pages"]
+
+_GRIDS = ((2, 3), (3, 2))  # columns and rows of pictures on a page
+_CAPTION = 12.0  # mm above a picture
+_GAP = 6.0
+_START = TOP - 6.0
+_PIXELS = 6.0  # a mm
+_TAG = 7.0  # points
+_WORDS = 8.0
+
+
+@dataclass(frozen=True)
+class _Shot:
+    """One picture of a step, and what is written on it."""
+
+    step: int  # counted from 1
+    part: str  # "", or a, b, ... where a step has more pictures
+    new: list[int]  # pieces counted from 1
+    place: str
+    rgb: NDArray[np.uint8]
+    labels: list[Label]
+
+
+@dataclass(frozen=True)
+class _Grid:
+    columns: int
+    rows: int
+
+    @property
+    def width(self) -> float:
+        return (RIGHT - LEFT + _GAP) / self.columns - _GAP
+
+    @property
+    def height(self) -> float:
+        return (BOTTOM - _START + _GAP) / self.rows - _GAP - _CAPTION
+
+
+def steps_pages(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> list[Page]:
+    """Draw all steps.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece, at least one
+    steps : sequence of sequence of int, pieces counted from 1
+
+    Returns
+    -------
+    list of callables, each draws a page
+    """
+    model = light_model(pieces, steps)
+    places = cameras(model)
+    extent = np.max([place.extent for place in places], axis=0)
+    grids = [_Grid(*grid) for grid in _GRIDS]
+    scales = [min(grid.width / extent[0], grid.height / extent[1]) for grid in grids]
+    grid, scale = max(zip(grids, scales, strict=True), key=lambda both: both[1])
+    frame = Frame(int(grid.width * _PIXELS), int(grid.height * _PIXELS), 0.98 * scale * _PIXELS)
+    ghosts: dict[int, Bools] = {}
+    shots: list[_Shot] = []
+    last = 0
+    for number, step in enumerate(steps):
+        if not step:
+            continue
+        scene, new = model.until(number), [piece - 1 for piece in step]
+        chosen = choose_cameras(model, scene, new, places, last)
+        for part, camera in enumerate(chosen):
+            view = places[camera].view
+            if camera not in ghosts:
+                ghosts[camera] = silhouette(model.scene, view, frame)
+            picture = draw_step(scene, view, frame, new, ghosts[camera])
+            sizes = [_tag_pixels(piece) for piece in step]
+            labels = place_labels(picture.piece, new, sizes)
+            name = "abcdefgh"[part % 8] if len(chosen) > 1 else ""
+            shots.append(_Shot(number + 1, name, list(step), places[camera].words, picture.rgb, labels))
+        last = chosen[0]
+    a_page = grid.columns * grid.rows
+    return [partial(_draw, grid, shots[k : k + a_page]) for k in range(0, len(shots), a_page)]
+
+
+def _tag_pixels(piece: int) -> tuple[float, float]:
+    width, height = tag_size(str(piece), _TAG)
+    return (width + 0.4) * _PIXELS, (height + 0.4) * _PIXELS
+
+
+def _draw(grid: _Grid, shots: Sequence[_Shot], sheets: Sheets) -> None:
+    for k, shot in enumerate(shots):
+        row, column = divmod(k, grid.columns)
+        x = LEFT + column * (grid.width + _GAP)
+        y = _START + row * (grid.height + _CAPTION + _GAP)
+        _draw_shot(shot, x, y, grid, sheets)
+
+
+def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> None:
+    sheets.line(x, y, x + grid.width, y, width=0.3, grey=0.3)
+    number = f"{shot.step}{shot.part}"
+    sheets.text(x, y + 7, number, 17, strong=True)
+    left = x + max(text_width(number, 17, strong=True) + 3, 11)
+    lines = wrapped(", ".join(map(str, shot.new)), _WORDS, x + grid.width - left)
+    for k, words in enumerate(lines[:2]):
+        sheets.text(left, y + 4 + 3.4 * k, words, _WORDS)
+    sheets.text(left, y + 4 + 3.4 * min(len(lines), 2), shot.place, 6.5, grey=0.4)
+    top = y + _CAPTION
+    sheets.picture(x, top, grid.width, grid.height, shot.rgb)
+    for label in shot.labels:
+        at = np.array(label.at) / _PIXELS + (x, top)
+        if label.tip is not None:
+            tip = np.array(label.tip) / _PIXELS + (x, top)
+            sheets.line(*at.tolist(), *tip.tolist(), width=0.25)
+            sheets.dot(*tip.tolist())
+    for label in shot.labels:
+        at = np.array(label.at) / _PIXELS + (x, top)
+        sheets.tag(*at.tolist(), str(label.piece + 1), _TAG)

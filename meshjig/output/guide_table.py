@@ -1,0 +1,88 @@
+"""The table of the guide: for every piece its step, its plate and its neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
+
+from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, text_width, wrapped
+
+__all__ = ["table_pages"]
+
+_SIZE = 7.5  # points
+_LINE = 3.9  # mm
+_NUMBER = 10.0  # mm, the width of a column with a number
+_LONGEST = 62.0  # mm, of a line of neighbours
+_GUTTER = 6.0
+
+
+class _Row(NamedTuple):
+    numbers: list[str]
+    lines: list[str]
+
+
+def table_pages(
+    neighbours: Sequence[Sequence[int]], steps: Sequence[Sequence[int]], plates: Sequence[int | None]
+) -> list[Page]:
+    """Lay out the table.
+
+    Parameters
+    ----------
+    neighbours : sequence of sequence of int, pieces counted from 1
+    steps : sequence of sequence of int, pieces counted from 1
+    plates : sequence of int or None, no column where all are None
+
+    Returns
+    -------
+    list of callables, each draws a page
+    """
+    step_of = {piece: str(number) for number, step in enumerate(steps, 1) for piece in step}
+    with_plates = any(plate is not None for plate in plates)
+    lists = [", ".join(map(str, near)) or "none" for near in neighbours]
+    widest = min(max(text_width(words, _SIZE) for words in lists), _LONGEST) + 1
+    heads = ["Piece", "Step", *(["Plate"] if with_plates else [])]
+    rows = [
+        _Row(
+            [str(i), step_of.get(i, ""), *([str(plate or "")] if with_plates else [])],
+            wrapped(words, _SIZE, widest),
+        )
+        for i, (words, plate) in enumerate(zip(lists, plates, strict=True), 1)
+    ]
+    needed = _NUMBER * len(heads) + widest
+    side_by_side = max(int((RIGHT - LEFT + _GUTTER) // (needed + _GUTTER)), 1)
+    columns = _columns(rows)
+    pages = [columns[k : k + side_by_side] for k in range(0, len(columns), side_by_side)]
+    width = (RIGHT - LEFT + _GUTTER) / side_by_side - _GUTTER
+    return [partial(_draw, heads, page, width) for page in pages]
+
+
+def _columns(rows: Sequence[_Row]) -> list[list[_Row]]:
+    columns: list[list[_Row]] = [[]]
+    y = TOP + 4
+    for row in rows:
+        height = _LINE * len(row.lines)
+        if y + height > BOTTOM and columns[-1]:
+            columns.append([])
+            y = TOP + 4
+        columns[-1].append(row)
+        y += height
+    return columns
+
+
+def _draw(heads: Sequence[str], columns: Sequence[Sequence[_Row]], width: float, sheets: Sheets) -> None:
+    for k, column in enumerate(columns):
+        left = LEFT + k * (width + _GUTTER)
+        for j, head in enumerate([*heads, "Neighbours"]):
+            sheets.text(left + 1 + j * _NUMBER, TOP, head, 7, grey=0.35)
+        sheets.line(left, TOP + 1.6, left + width, TOP + 1.6, grey=0.4)
+        y = TOP + 2.2
+        for i, row in enumerate(column):
+            height = _LINE * len(row.lines)
+            if i % 2:
+                sheets.box(left, y, width, height, grey=0.94)
+            for j, number in enumerate(row.numbers):
+                sheets.text(left + 1 + j * _NUMBER, y + 2.9, number, _SIZE, strong=j == 0)
+            for line, words in enumerate(row.lines):
+                sheets.text(left + 1 + len(heads) * _NUMBER, y + 2.9 + line * _LINE, words, _SIZE)
+            y += height

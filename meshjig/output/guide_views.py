@@ -1,0 +1,114 @@
+"""From where to look at a step, so that its new pieces are seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.output.guide_model import LightModel
+from meshjig.output.scene import Scene
+from meshjig.output.view import View, view_of
+from meshjig.types import Floats, Ints
+
+__all__ = ["Camera", "cameras", "choose_cameras"]
+
+_AZIMUTHS = tuple(range(30, 390, 45))  # degrees
+_ELEVATIONS = (20.0, 48.0)
+_RAYS = 60  # a piece
+_INSIDE = 0.6  # worth of a piece's inner side, seen through an opening
+_ENOUGH = 0.3  # of a piece's outline, in mm2 of half its surface: it is found at a glance
+_SAME = 0.2  # how much worse a view may be that spares turning the model
+_HIDDEN = 0.3  # of enough, below which a piece deserves another picture
+_BETTER = 0.3  # how much more of enough the other picture has to show
+
+
+class Camera(NamedTuple):
+    """One of the places from which pictures are taken."""
+
+    azimuth: float
+    elevation: float
+    view: View
+    extent: Floats  # (2,), width and height of the model in the plane at distance 1
+
+    @property
+    def words(self) -> str:
+        """Say where it stands."""
+        side = ("front", "right", "back", "left")[int((self.azimuth + 45) // 90) % 4]
+        return f"from the {side}" + (" and above" if self.elevation > _ELEVATIONS[0] else "")
+
+
+def cameras(model: LightModel) -> list[Camera]:
+    """Give places all around a model, at the same distance."""
+    from scipy.spatial import ConvexHull
+
+    outline = model.V[ConvexHull(model.V).vertices]
+    made = []
+    for elevation in _ELEVATIONS:
+        for azimuth in _AZIMUTHS:
+            view = view_of(outline, model.up, azimuth, elevation)
+            seen = (outline - view.eye) @ view.axes.T
+            extent = np.ptp(seen[:, :2] / seen[:, 2:], axis=0)
+            made.append(Camera(azimuth % 360, elevation, view, extent))
+    return made
+
+
+def choose_cameras(
+    model: LightModel, scene: Scene, new: Sequence[int], places: Sequence[Camera], last: int
+) -> list[int]:
+    """Choose the places that show the new pieces best.
+
+    Parameters
+    ----------
+    model : LightModel
+    scene : Scene, what is there, the new pieces included
+    new : sequence of int, pieces counted from 0
+    places : sequence of Camera
+    last : int
+        The place of the picture before; it is kept where it is nearly as good.
+
+    Returns
+    -------
+    list of int
+        One place; more where a piece can hardly be seen from the first, but well from another.
+    """
+    shown = np.minimum(_seen(model, scene, new, places) / _ENOUGH, 1)
+    total = shown.sum(axis=1)
+    total[last] += _SAME * len(new)
+    chosen = [int(total.argmax())]
+    while True:
+        best = shown[chosen].max(axis=0)
+        gain = np.where((best < _HIDDEN) & (shown > best + _BETTER), shown - best, 0).sum(axis=1)
+        if not gain.any():
+            return chosen
+        chosen.append(int(gain.argmax()))
+
+
+def _seen(model: LightModel, scene: Scene, new: Sequence[int], places: Sequence[Camera]) -> Floats:
+    """Tell how much of each new piece is seen from each place, in shares of half its surface, (c, p).
+
+    Rays go from the eyes to some faces of each piece; those count that meet nothing before.
+    """
+    faces = [_some(np.flatnonzero(scene.id == piece)) for piece in new]
+    face, piece = np.concatenate(faces), np.repeat(np.arange(len(new)), [len(some) for some in faces])
+    A = model.area_vector[face]
+    worth = np.where(model.outside[face], 1.0, _INSIDE)
+    half = np.maximum(np.bincount(piece, np.linalg.norm(A, axis=1), len(new)) / 2, 1e-12)
+    middle = (model.middle[face] - scene.middle) / scene.radius
+    eye = (np.array([place.view.eye for place in places]) - scene.middle) / scene.radius
+    toward = middle - eye[:, None]
+    facing = -np.einsum("cfk,fk->cf", toward, A) / np.linalg.norm(toward, axis=2)
+    camera, ray = np.nonzero(facing > 0)
+    way = toward[camera, ray].astype(np.float32)
+    first = scene.embree.run(eye[camera].astype(np.float32), way, output=1)
+    free = first["primID"] == face[ray]
+    value = (facing[camera, ray] * worth[ray])[free]
+    n = len(new)
+    seen = np.bincount((camera * n + piece[ray])[free], value, len(places) * n).reshape(-1, n)
+    return seen / half
+
+
+def _some(faces: Ints) -> Ints:
+    """Give every few of many."""
+    return faces[np.linspace(0, len(faces) - 1, min(len(faces), _RAYS)).astype(np.int64)]
