@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OutputError
-from meshjig.output.guide_cover import draw_cover, draw_whole, title_of
+from meshjig.output.guide_cover import draw_cover, draw_whole, title_of, trimmed
 from meshjig.output.guide_outline import outlines
 from meshjig.output.guide_parts import parts_pages
 from meshjig.output.guide_sheet import Page, Sheets
@@ -56,23 +56,22 @@ def write_guide(
     assembly = assembly_of(pieces, report)
     on_plate = [(plates or {}).get(piece.name) for piece in pieces]
     listed = report.get("pieces", ())
+    picture = trimmed(draw_whole(pieces) if cover is None else cover)
     chapters = [
         ("What you have", parts_pages(outlines(pieces), on_plate)),
-        ("Putting it together", steps_pages(pieces, assembly.steps)),
+        ("Putting it together", steps_pages(pieces, assembly.steps, picture)),
     ]
     if len(listed) == len(pieces):
         neighbours = [entry["neighbours"] for entry in listed]
         chapters.append(("Who borders on whom", table_pages(neighbours, assembly.steps, on_plate)))
     starts = np.cumsum([2, *(len(pages) for _, pages in chapters)]).tolist()
     contents = [(name, start) for (name, _), start in zip(chapters, starts, strict=False)]
-    picture = draw_whole(pieces) if cover is None else cover
-    sheets = Sheets(path, title_of(report), n_pages=starts[-1] - 1)
     n_plates = len({plate for plate in on_plate if plate is not None})
-    draw_cover(sheets, pieces, report, picture, contents, n_plates=n_plates, verified=assembly.verified)
-    sheets.end_page("")
-    for name, pages in chapters:
-        _write(sheets, name, pages)
-    sheets.close()
+    with Sheets(path, title_of(report), n_pages=starts[-1] - 1) as sheets:
+        draw_cover(sheets, pieces, report, picture, contents, n_plates=n_plates, verified=assembly.verified)
+        sheets.end_page("")
+        for name, pages in chapters:
+            _write(sheets, name, pages)
 
 
 def _write(sheets: Sheets, name: str, pages: Sequence[Page]) -> None:

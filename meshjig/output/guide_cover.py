@@ -16,9 +16,10 @@ from meshjig.output.scene import scene_of
 from meshjig.output.together import together
 from meshjig.output.view import View, guess_up, view_of
 
-__all__ = ["cover_of_preview", "draw_cover", "draw_whole", "title_of"]
+__all__ = ["cover_of_preview", "draw_cover", "draw_whole", "title_of", "trimmed"]
 
-_PICTURE = 132.0  # mm, each side
+_PICTURE = (160.0, 140.0)  # mm
+_WHITE = 250
 _SIDE = (30.0, 18.0)  # azimuth and elevation, degrees
 _TITLE = 30.0  # points; less where a name is long
 _BOOK = (
@@ -45,6 +46,15 @@ def cover_of_preview(path: Path) -> NDArray[np.uint8]:
 
     with Image.open(path) as sheet:
         return np.asarray(sheet.crop((0, 0, sheet.width // 2, sheet.height // 2)).convert("RGB"))
+
+
+def trimmed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Leave out the white border of a picture."""
+    dark = (picture < _WHITE).any(axis=2)
+    rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
+    if not len(rows):
+        return picture
+    return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
 
 
 def draw_whole(pieces: Sequence[Piece], size: int = 800) -> NDArray[np.uint8]:
@@ -74,7 +84,7 @@ def draw_cover(
     pieces : sequence of Piece
     report : mapping
         Its ``input`` and ``options`` are told of, as far as they are there.
-    picture : (k, k, 3) uint8
+    picture : (h, w, 3) uint8
     contents : sequence of (str, int), chapters and their pages
     n_plates : int, 0 where pieces were not laid on plates
     verified : bool, somebody made sure that the order works
@@ -83,19 +93,20 @@ def draw_cover(
     size = min(_TITLE, _TITLE * (RIGHT - LEFT) / text_width(title, _TITLE, strong=True))
     sheets.text(LEFT, 38, title, size, strong=True)
     sheets.text(LEFT, 47, f"A jigsaw puzzle of {_count(len(pieces), 'piece')}, in three dimensions", 13, grey=0.3)
-    sheets.picture((WIDTH - _PICTURE) / 2, 54, _PICTURE, _PICTURE, picture)
+    width, height = _PICTURE
+    sheets.fitted((WIDTH - width) / 2, 56, width, height, picture)
     facts = _facts(pieces, report, n_plates)
     each = (RIGHT - LEFT) / len(facts)
-    sheets.line(LEFT, 193, RIGHT, 193, grey=0.6)
+    sheets.line(LEFT, 206, RIGHT, 206, grey=0.6)
     for k, (what, value) in enumerate(facts):
-        sheets.text(LEFT + k * each, 200, what, 8, grey=0.35)
-        sheets.text(LEFT + k * each, 206, value, 11, strong=True)
-    sheets.line(LEFT, 211, RIGHT, 211, grey=0.6)
-    y = 222.0
+        sheets.text(LEFT + k * each, 213, what, 8, grey=0.35)
+        sheets.text(LEFT + k * each, 219, value, 11, strong=True)
+    sheets.line(LEFT, 224, RIGHT, 224, grey=0.6)
+    y = 235.0
     sheets.text(LEFT, y, "How to read this guide", 11, strong=True)
     y = sheets.paragraph(LEFT, y + 6, 112, _BOOK)
     sheets.paragraph(LEFT, y + 2, 112, _VERIFIED if verified else _UNVERIFIED)
-    y, left = 222.0, LEFT + 126
+    y, left = 235.0, LEFT + 126
     sheets.text(left, y, "Contents", 11, strong=True)
     for chapter, page in contents:
         y += 6

@@ -45,7 +45,7 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
     taken: list[Floats] = []
     labels: list[Label] = []
     spots = [_widest(piece == one) for one in new]
-    is_new = np.isin(piece, list(new))
+    crowd = [_summed(np.isin(piece, list(new))), _summed(piece >= 0)]
     order = sorted(range(len(new)), key=lambda i: -spots[i][2])
     for i in order:
         x, y, room = spots[i]
@@ -56,7 +56,7 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
         if room >= 0.5 * np.hypot(0.8 * w, h) and not _hits(box, taken):
             labels.append(Label(new[i], (x, y), None))
         else:
-            box = _beside(x, y, w, h, piece, is_new, taken)
+            box = _beside(x, y, w, h, crowd, taken)
             middle = (float(box[0] + box[2]) / 2, float(box[1] + box[3]) / 2)
             labels.append(Label(new[i], middle, (x, y)))
         taken.append(box)
@@ -92,29 +92,32 @@ def _overlaps(boxes: Floats, taken: list[Floats]) -> Bools:
     return ~apart.any(axis=2).all(axis=1)
 
 
-def _beside(
-    x: float, y: float, w: float, h: float, piece: Ints, is_new: Bools, taken: list[Floats]
-) -> Floats:
-    """Give the best box near a point: free, on paper rather than on the model, not on new pieces, near."""
+def _beside(x: float, y: float, w: float, h: float, crowd: list[Ints], taken: list[Floats]) -> Floats:
+    """Give the best box near a point: free, near, off the new pieces, and rather off the model too."""
     turn, far = np.meshgrid(
         2 * np.pi * np.arange(_TURNS) / _TURNS, (1.0 + 0.5 * np.arange(_FAR)) * (w + h) / 2
     )
     at = np.stack([x + (far * np.cos(turn)).ravel(), y + (far * np.sin(turn)).ravel()], 1)
-    height, width = piece.shape
+    height, width = (side - 1 for side in crowd[0].shape)
     at = np.clip(at, (w / 2, h / 2), (width - w / 2, height - h / 2))
     boxes = np.hstack([at - (w / 2, h / 2), at + (w / 2, h / 2)])
     cost = np.hypot(*(at - (x, y)).T) / (w + h)
-    cost += 3.0 * _share(is_new, boxes) + 0.8 * _share(piece >= 0, boxes)
+    cost += 3.0 * _share(crowd[0], boxes) + 0.8 * _share(crowd[1], boxes)
     cost += 100.0 * _overlaps(boxes, taken) + 100.0 * (np.abs(at - (x, y)) < (w / 2, h / 2)).all(axis=1)
     best: Floats = boxes[int(cost.argmin())]
     return best
 
 
-def _share(mask: Bools, boxes: Floats) -> Floats:
-    """Give how much of each box (k, 4) is in a mask, (k,)."""
-    total = np.pad(mask.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
-    left, top, right, bottom = np.clip(
-        np.rint(boxes).astype(np.int64), 0, (mask.shape[1], mask.shape[0]) * 2
-    ).T
+def _summed(mask: Bools) -> Ints:
+    """Count what is set above and to the left of each corner, (h + 1, w + 1)."""
+    total = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), np.int64)
+    np.cumsum(np.cumsum(mask, axis=0, dtype=np.int64), axis=1, out=total[1:, 1:])
+    return total
+
+
+def _share(total: Ints, boxes: Floats) -> Floats:
+    """Give how much of each box (k, 4) is set, (k,)."""
+    most = np.array(total.shape)[[1, 0, 1, 0]] - 1
+    left, top, right, bottom = np.clip(np.rint(boxes).astype(np.int64), 0, most).T
     inside = total[bottom, right] - total[top, right] - total[bottom, left] + total[top, left]
     return inside / np.maximum((right - left) * (bottom - top), 1)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,9 +15,17 @@ from meshjig.output.together import together
 from meshjig.output.view import guess_up
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["LightModel", "light_model", "outward_of"]
+__all__ = ["LightModel", "Stage", "light_model", "outward_of"]
 
 _GRAIN = 0.0125  # of the model's largest extent: what small pictures don't show
+_A_SCENE = 5  # steps; making a scene takes longer than looking through what is not placed yet
+
+
+class Stage(NamedTuple):
+    """What is there at a step: the first faces of a scene."""
+
+    scene: Scene
+    n_faces: int
 
 
 @dataclass(frozen=True)
@@ -31,18 +40,17 @@ class LightModel:
     up: Floats  # (3,)
     first_vertex: Ints  # (s + 1,), where the vertices of each step begin
     first_face: Ints  # (s + 1,)
+    _made: dict[int, Scene] = field(default_factory=dict)
 
-    def until(self, step: int) -> Scene:
-        """Give the scene of all pieces placed up to and in a step, counted from 0."""
-        scene, n, m = self.scene, int(self.first_vertex[step + 1]), int(self.first_face[step + 1])
-        part = replace(
-            scene,
-            F=scene.F[:m],
-            face_normal=scene.face_normal[:m],
-            colour=scene.colour[:m],
-            id=scene.id[:m],
-        )
-        return shifted(part, self.V[:n])
+    def until(self, step: int) -> Stage:
+        """Give what is there after a step, counted from 0."""
+        last = min(step - step % _A_SCENE + _A_SCENE, len(self.first_face) - 1)
+        if last not in self._made:
+            n, m = int(self.first_vertex[last]), int(self.first_face[last])
+            part = replace(self.scene, F=self.scene.F[:m], id=self.scene.id[:m])
+            self._made.clear()
+            self._made[last] = self.scene if m == len(self.scene.F) else shifted(part, self.V[:n])
+        return Stage(self._made[last], int(self.first_face[step + 1]))
 
 
 def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> LightModel:
@@ -73,11 +81,10 @@ def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> Ligh
     G = G[np.argsort(turn[owner[G[:, 0]]], kind="stable")]
     n_placed = np.cumsum([0, *map(len, steps)])
     first_vertex, first_face = (np.searchsorted(turn[x], n_placed) for x in (owner, owner[G[:, 0]]))
-    G, piece = G[: first_face[-1]], owner[G[: first_face[-1], 0]]
-    A = area_vectors(W, G) / 2
-    scene = scene_of(W, G, np.ones((len(G), 3)), piece)
+    W, G = W[: first_vertex[-1]], G[: first_face[-1]]
+    piece, A = owner[G[:, 0]], area_vectors(W, G) / 2
     return LightModel(
-        scene,
+        scene_of(W, G, np.ones((len(G), 3)), piece),
         W,
         W[G].mean(axis=1),
         A,
@@ -86,6 +93,14 @@ def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> Ligh
         first_vertex,
         first_face,
     )
+
+
+def outward_of(pieces: Sequence[Piece]) -> Floats:
+    """Give where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
+    middles = np.array([piece.V.mean(axis=0) for piece in pieces])
+    away = middles - middles.mean(axis=0)
+    told = [piece.outer_normal for piece in pieces]
+    return np.array([x if normal is None else normal for x, normal in zip(away, told, strict=True)])
 
 
 def _turns(n: int, steps: Sequence[Sequence[int]]) -> Ints:
@@ -103,11 +118,3 @@ def _cells(V: Floats, rank: Ints) -> Ints:
     size = int(1 / _GRAIN) + 2
     _, number = np.unique(((rank * size + x) * size + y) * size + z, return_inverse=True)
     return number
-
-
-def outward_of(pieces: Sequence[Piece]) -> Floats:
-    """Give where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
-    middles = np.array([piece.V.mean(axis=0) for piece in pieces])
-    away = middles - middles.mean(axis=0)
-    told = [piece.outer_normal for piece in pieces]
-    return np.array([x if normal is None else normal for x, normal in zip(away, told, strict=True)])

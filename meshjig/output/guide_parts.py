@@ -14,8 +14,8 @@ from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, t
 __all__ = ["parts_pages"]
 
 _A_PAGE = 130  # pieces, that should do with one page
-_SCALES = (1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1)
-_GAP, _CAPTION, _HEADING = 4.0, 5.0, 9.0  # mm
+_SCALES = (1.0, 0.75, 0.6, 0.5, 0.45, 0.4, 0.35, 0.3, 0.25, 0.2, 0.15, 0.1)
+_GAP, _CAPTION, _HEADING = 3.0, 4.5, 8.0  # mm
 _SMALL = 6.0  # points
 _FIRST = TOP + 4.0  # below the words on how large things are drawn
 
@@ -55,25 +55,26 @@ def parts_pages(shapes: Sequence[Outline], plates: Sequence[int | None]) -> list
 
 
 def _flow(shapes: Sequence[Outline], plates: Sequence[int | None], scale: float) -> list[_Spot]:
-    """Put pieces into cells of one size, row by row, under a heading for each plate."""
+    """Put pieces into columns of one width, row by row, under a heading for each plate."""
+    sizes = np.array([shape.size for shape in shapes]) * scale
     least = text_width(f"{len(shapes)}", 8, strong=True) + text_width("100 × 100", _SMALL) + 1.5
-    widest, highest = np.max([shape.size for shape in shapes], axis=0) * scale
-    width, height = max(widest, least) + _GAP, highest + _CAPTION + _GAP
-    a_row = max(int((RIGHT - LEFT + _GAP) // width), 1)
+    a_row = max(int((RIGHT - LEFT + _GAP) // (max(sizes[:, 0].max(), least) + _GAP)), 1)
     width = (RIGHT - LEFT + _GAP) / a_row
     spots: list[_Spot] = []
     page, y = 0, _FIRST
     for plate in sorted(set(plates), key=lambda plate: (plate is None, plate)):
         mine = [i for i, other in enumerate(plates) if other == plate]
-        for k, i in enumerate(mine):
-            if k % a_row == 0:
-                heading = _HEADING if k == 0 else 0.0
-                if y + heading + height - _GAP > BOTTOM and y > _FIRST:
-                    page, y = page + 1, _FIRST
-                if k == 0:
-                    spots.append(_Spot(page, LEFT, y + 5, -1, _heading(plate, mine)))
-                y += heading + height
-            spots.append(_Spot(page, LEFT + k % a_row * width, y - _GAP, i, ""))
+        for k in range(0, len(mine), a_row):
+            row = mine[k : k + a_row]
+            heading = _HEADING if k == 0 else 0.0
+            height = float(sizes[row, 1].max()) + _CAPTION
+            if y + heading + height > BOTTOM and y > _FIRST:
+                page, y = page + 1, _FIRST
+            if k == 0:
+                spots.append(_Spot(page, LEFT, y + 5, -1, _heading(plate, mine)))
+            y += heading + height
+            spots += [_Spot(page, LEFT + j * width, y, i, "") for j, i in enumerate(row)]
+            y += _GAP
     return spots
 
 
@@ -96,7 +97,7 @@ def _draw(shapes: Sequence[Outline], scale: float, spots: Sequence[_Spot], sheet
             continue
         shape = shapes[spot.piece]
         floor = spot.y - _CAPTION
-        sheets.shape([(shape.ring * (1, -1)) * scale + (spot.x, floor)])
+        sheets.shape(shape.ring * (scale, -scale) + (spot.x, floor))
         number = str(spot.piece + 1)
         sheets.text(spot.x, spot.y - 1.2, number, 8, strong=True)
         size = " × ".join(f"{side:.0f}" for side in shape.size)

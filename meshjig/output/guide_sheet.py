@@ -37,12 +37,14 @@ Align = Literal["left", "middle", "right"]
 
 
 class Sheets:
-    """A PDF that is written page by page. Equal calls give equal bytes."""
+    """A PDF that is written page by page, once its block ends. Equal calls give equal bytes."""
 
     def __init__(self, path: Path, title: str, n_pages: int) -> None:
         self._title, self._page, self._n_pages = title, 1, n_pages
+        from reportlab import rl_config
         from reportlab.pdfgen.canvas import Canvas
 
+        self._text_only = rl_config.useA85
         self._pen: Any = Canvas(
             str(path), pagesize=(WIDTH * _POINT, HEIGHT * _POINT), invariant=1, pageCompression=1
         )
@@ -60,9 +62,20 @@ class Sheets:
         self._pen.showPage()
         self._page += 1
 
-    def close(self) -> None:
-        """Write the file."""
-        self._pen.save()
+    def __enter__(self) -> Sheets:
+        from reportlab import rl_config
+
+        rl_config.useA85 = 0  # slow, and a quarter larger
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *rest: object) -> None:
+        from reportlab import rl_config
+
+        try:
+            if kind is None:
+                self._pen.save()
+        finally:
+            rl_config.useA85 = self._text_only
 
     def bookmark(self, name: str) -> None:
         """Let the outline beside the pages name this one."""
@@ -115,20 +128,21 @@ class Sheets:
             *(v * _POINT for v in (x, HEIGHT - y - h, w, h, round)), stroke=grey is None, fill=grey is not None
         )
 
-    def shape(self, loops: Sequence[Floats], *, grey: float = 0.92) -> None:
-        """Draw a shape with an outline; loops are (k, 2) in mm."""
+    def shape(self, ring: Floats, *, width: float = 0.15, grey: float = 0.9) -> None:
+        """Draw a shape (k, 2), mm, with an outline around all of it, also where it covers itself."""
         pen = self._pen
         path = pen.beginPath()
-        for loop in loops:
-            points = np.round((loop * (1, -1) + (0, HEIGHT)) * _POINT, 2).tolist()
-            path.moveTo(*points[0])
-            for point in points[1:]:
-                path.lineTo(*point)
-            path.close()
-        pen.setLineWidth(0.2 * _POINT)
+        points = np.round((ring * (1, -1) + (0, HEIGHT)) * _POINT, 2).tolist()
+        path.moveTo(*points[0])
+        for point in points[1:]:
+            path.lineTo(*point)
+        path.close()
+        pen.setLineWidth(2 * width * _POINT)
+        pen.setLineJoin(1)
         pen.setStrokeGray(0.15)
         pen.setFillGray(grey)
-        pen.drawPath(path, stroke=1, fill=1, fillMode=0)
+        pen.drawPath(path, stroke=1, fill=0)
+        pen.drawPath(path, stroke=0, fill=1, fillMode=1)
 
     def picture(self, x: float, y: float, w: float, h: float, rgb: NDArray[np.uint8]) -> None:
         """Show pixels (rows, columns, 3) in a rectangle."""
@@ -141,6 +155,13 @@ class Sheets:
         self._pen.drawImage(
             ImageReader(buffer), *(v * _POINT for v in (x, HEIGHT - y - h)), w * _POINT, h * _POINT
         )
+
+    def fitted(self, x: float, y: float, w: float, h: float, rgb: NDArray[np.uint8]) -> None:
+        """Show pixels as large as they fit into the middle of a rectangle."""
+        rows, columns = rgb.shape[:2]
+        scale = min(w / columns, h / rows)
+        wide, high = columns * scale, rows * scale
+        self.picture(x + (w - wide) / 2, y + (h - high) / 2, wide, high, rgb)
 
     def dot(self, x: float, y: float) -> None:
         """Draw a small black dot."""

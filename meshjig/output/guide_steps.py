@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.output.guide_labels import Label, place_labels
-from meshjig.output.guide_model import light_model
+from meshjig.output.guide_model import Stage, light_model
 from meshjig.output.guide_picture import Frame, draw_step, silhouette
 from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, tag_size, text_width, wrapped
 from meshjig.output.guide_views import Camera, cameras, choose_cameras
 from meshjig.output.piece import Piece
-from meshjig.types import Bools
+from meshjig.types import Floats
 
 __all__ = ["steps_pages"]
 
@@ -26,6 +26,8 @@ _START = TOP - 6.0
 _PIXELS = 6.0  # a mm
 _TAG = 7.0  # points
 _WORDS = 8.0
+_MARGIN = 0.96  # of a picture, filled by what it shows
+_CLOSEST = 1.7  # how much larger first steps are drawn than the whole model
 
 
 @dataclass(frozen=True)
@@ -54,13 +56,16 @@ class _Grid:
         return (BOTTOM - _START + _GAP) / self.rows - _GAP - _CAPTION
 
 
-def steps_pages(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> list[Page]:
+def steps_pages(
+    pieces: Sequence[Piece], steps: Sequence[Sequence[int]], whole: NDArray[np.uint8]
+) -> list[Page]:
     """Draw all steps.
 
     Parameters
     ----------
     pieces : sequence of Piece, at least one
     steps : sequence of sequence of int, pieces counted from 1
+    whole : (h, w, 3) uint8, a picture of the puzzle put together, for where the last page has room
 
     Returns
     -------
@@ -72,27 +77,41 @@ def steps_pages(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> list
     grids = [_Grid(*grid) for grid in _GRIDS]
     scales = [min(grid.width / extent[0], grid.height / extent[1]) for grid in grids]
     grid, scale = max(zip(grids, scales, strict=True), key=lambda both: both[1])
-    frame = Frame(int(grid.width * _PIXELS), int(grid.height * _PIXELS), 0.98 * scale * _PIXELS)
-    ghosts: dict[int, Bools] = {}
     shots: list[_Shot] = []
     last = 0
     for number, step in enumerate(steps):
         if not step:
             continue
-        scene, new = model.until(number), [piece - 1 for piece in step]
-        chosen = choose_cameras(model, scene, new, places, last)
+        stage, new = model.until(number), [piece - 1 for piece in step]
+        placed = model.V[: model.first_vertex[number + 1]]
+        chosen = choose_cameras(model, stage, new, places, last)
         for part, camera in enumerate(chosen):
-            view = places[camera].view
-            if camera not in ghosts:
-                ghosts[camera] = silhouette(model.scene, view, frame)
-            picture = draw_step(scene, view, frame, new, ghosts[camera])
-            sizes = [_tag_pixels(piece) for piece in step]
-            labels = place_labels(picture.piece, new, sizes)
+            place = places[camera]
+            frame = _frame(grid, _MARGIN * scale, place, placed)
+            ghost = silhouette(Stage(model.scene, len(model.scene.F)), place.view, frame)
+            picture = draw_step(stage, place.view, frame, new, ghost)
+            labels = place_labels(picture.piece, new, [_tag_pixels(piece) for piece in step])
             name = "abcdefgh"[part % 8] if len(chosen) > 1 else ""
-            shots.append(_Shot(number + 1, name, list(step), places[camera].words, picture.rgb, labels))
+            shots.append(_Shot(number + 1, name, list(step), place.words, picture.rgb, labels))
         last = chosen[0]
     a_page = grid.columns * grid.rows
-    return [partial(_draw, grid, shots[k : k + a_page]) for k in range(0, len(shots), a_page)]
+    pages = [shots[k : k + a_page] for k in range(0, len(shots), a_page)]
+    return [partial(_draw, grid, page, whole if page is pages[-1] else None) for page in pages]
+
+
+def _frame(grid: _Grid, scale: float, place: Camera, placed: Floats) -> Frame:
+    """Frame what is placed: never smaller than at a scale (mm a unit), and not much larger."""
+    seen = (placed - place.view.eye) @ place.view.axes.T
+    plane = seen[:, :2] / seen[:, 2:]
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    size = np.array([grid.width, grid.height])
+    fitting = _MARGIN * float((size / np.maximum(high - low, 1e-9)).min())
+    scale = float(np.clip(fitting, scale, _CLOSEST * scale))
+    middle = place.view.centre
+    room = np.maximum(place.extent / (2 * _MARGIN) - size / (2 * scale), 0)  # to stay within the model
+    middle = np.clip((low + high) / 2, middle - room, middle + room)
+    pixels = np.round(size * _PIXELS).astype(int).tolist()
+    return Frame(pixels[0], pixels[1], scale * _PIXELS, (float(middle[0]), float(middle[1])))
 
 
 def _tag_pixels(piece: int) -> tuple[float, float]:
@@ -100,12 +119,18 @@ def _tag_pixels(piece: int) -> tuple[float, float]:
     return (width + 0.4) * _PIXELS, (height + 0.4) * _PIXELS
 
 
-def _draw(grid: _Grid, shots: Sequence[_Shot], sheets: Sheets) -> None:
+def _draw(grid: _Grid, shots: Sequence[_Shot], whole: NDArray[np.uint8] | None, sheets: Sheets) -> None:
     for k, shot in enumerate(shots):
         row, column = divmod(k, grid.columns)
         x = LEFT + column * (grid.width + _GAP)
         y = _START + row * (grid.height + _CAPTION + _GAP)
         _draw_shot(shot, x, y, grid, sheets)
+    used = -(-len(shots) // grid.columns)
+    if whole is not None and used < grid.rows:
+        y = _START + used * (grid.height + _CAPTION + _GAP)
+        sheets.line(LEFT, y, RIGHT, y, width=0.3, grey=0.3)
+        sheets.text(LEFT, y + 7, "Done", 17, strong=True)
+        sheets.fitted(LEFT, y + _CAPTION, RIGHT - LEFT, BOTTOM - y - _CAPTION, whole)
 
 
 def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> None:

@@ -12,9 +12,10 @@ __all__ = ["table_pages"]
 
 _SIZE = 7.5  # points
 _LINE = 3.9  # mm
-_NUMBER = 10.0  # mm, the width of a column with a number
+_NUMBER = 8.5  # mm, the width of a column with a number
 _LONGEST = 62.0  # mm, of a line of neighbours
-_GUTTER = 6.0
+_GUTTER = 5.0
+_FIRST = TOP + 2.2  # below the heads
 
 
 class _Row(NamedTuple):
@@ -51,20 +52,24 @@ def table_pages(
     ]
     needed = _NUMBER * len(heads) + widest
     side_by_side = max(int((RIGHT - LEFT + _GUTTER) // (needed + _GUTTER)), 1)
-    columns = _columns(rows)
+    n_lines = sum(len(row.lines) for row in rows)
+    a_page = side_by_side * int((BOTTOM - _FIRST) / _LINE)
+    n_columns = side_by_side * -(-n_lines // a_page)
+    columns = _columns(rows, _FIRST + _LINE * (n_lines / n_columns + 1))
     pages = [columns[k : k + side_by_side] for k in range(0, len(columns), side_by_side)]
     width = (RIGHT - LEFT + _GUTTER) / side_by_side - _GUTTER
     return [partial(_draw, heads, page, width) for page in pages]
 
 
-def _columns(rows: Sequence[_Row]) -> list[list[_Row]]:
+def _columns(rows: Sequence[_Row], bottom: float) -> list[list[_Row]]:
+    """Fill one column after the other, down to a bottom, mm."""
     columns: list[list[_Row]] = [[]]
-    y = TOP + 4
+    y = _FIRST
     for row in rows:
         height = _LINE * len(row.lines)
-        if y + height > BOTTOM and columns[-1]:
+        if y + height > min(bottom, BOTTOM) and columns[-1]:
             columns.append([])
-            y = TOP + 4
+            y = _FIRST
         columns[-1].append(row)
         y += height
     return columns
@@ -76,7 +81,7 @@ def _draw(heads: Sequence[str], columns: Sequence[Sequence[_Row]], width: float,
         for j, head in enumerate([*heads, "Neighbours"]):
             sheets.text(left + 1 + j * _NUMBER, TOP, head, 7, grey=0.35)
         sheets.line(left, TOP + 1.6, left + width, TOP + 1.6, grey=0.4)
-        y = TOP + 2.2
+        y = _FIRST
         for i, row in enumerate(column):
             height = _LINE * len(row.lines)
             if i % 2:

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.output.guide_model import LightModel
-from meshjig.output.scene import Scene
+from meshjig.output.guide_model import LightModel, Stage
+from meshjig.output.guide_rays import meet
 from meshjig.output.view import View, view_of
 from meshjig.types import Floats, Ints
 
@@ -55,14 +55,14 @@ def cameras(model: LightModel) -> list[Camera]:
 
 
 def choose_cameras(
-    model: LightModel, scene: Scene, new: Sequence[int], places: Sequence[Camera], last: int
+    model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera], last: int
 ) -> list[int]:
     """Choose the places that show the new pieces best.
 
     Parameters
     ----------
     model : LightModel
-    scene : Scene, what is there, the new pieces included
+    stage : Stage, what is there, the new pieces included
     new : sequence of int, pieces counted from 0
     places : sequence of Camera
     last : int
@@ -73,7 +73,7 @@ def choose_cameras(
     list of int
         One place; more where a piece can hardly be seen from the first, but well from another.
     """
-    shown = np.minimum(_seen(model, scene, new, places) / _ENOUGH, 1)
+    shown = np.minimum(_seen(model, stage, new, places) / _ENOUGH, 1)
     total = shown.sum(axis=1)
     total[last] += _SAME * len(new)
     chosen = [int(total.argmax())]
@@ -85,24 +85,23 @@ def choose_cameras(
         chosen.append(int(gain.argmax()))
 
 
-def _seen(model: LightModel, scene: Scene, new: Sequence[int], places: Sequence[Camera]) -> Floats:
+def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera]) -> Floats:
     """Tell how much of each new piece is seen from each place, in shares of half its surface, (c, p).
 
     Rays go from the eyes to some faces of each piece; those count that meet nothing before.
     """
-    faces = [_some(np.flatnonzero(scene.id == piece)) for piece in new]
+    owner = stage.scene.id[: stage.n_faces]
+    faces = [_some(np.flatnonzero(owner == piece)) for piece in new]
     face, piece = np.concatenate(faces), np.repeat(np.arange(len(new)), [len(some) for some in faces])
     A = model.area_vector[face]
     worth = np.where(model.outside[face], 1.0, _INSIDE)
     half = np.maximum(np.bincount(piece, np.linalg.norm(A, axis=1), len(new)) / 2, 1e-12)
-    middle = (model.middle[face] - scene.middle) / scene.radius
-    eye = (np.array([place.view.eye for place in places]) - scene.middle) / scene.radius
-    toward = middle - eye[:, None]
+    eye = np.array([place.view.eye for place in places])
+    toward = model.middle[face] - eye[:, None]
     facing = -np.einsum("cfk,fk->cf", toward, A) / np.linalg.norm(toward, axis=2)
     camera, ray = np.nonzero(facing > 0)
-    way = toward[camera, ray].astype(np.float32)
-    first = scene.embree.run(eye[camera].astype(np.float32), way, output=1)
-    free = first["primID"] == face[ray]
+    met = meet(stage, eye[camera], toward[camera, ray].astype(np.float32))
+    free = met.face == face[ray]
     value = (facing[camera, ray] * worth[ray])[free]
     n = len(new)
     seen = np.bincount((camera * n + piece[ray])[free], value, len(places) * n).reshape(-1, n)
