@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OutputError
-from meshjig.output.guide_cover import draw_cover, draw_whole, title_of, trimmed
+from meshjig.output.guide_cover import draw_cover, title_of, trimmed
+from meshjig.output.guide_model import joint_of
 from meshjig.output.guide_outline import outlines
 from meshjig.output.guide_parts import parts_pages
 from meshjig.output.guide_sheet import Page, Sheets
@@ -18,6 +19,7 @@ from meshjig.output.guide_steps import steps_pages
 from meshjig.output.guide_table import table_pages
 from meshjig.output.order import assembly_of
 from meshjig.output.piece import Piece
+from meshjig.output.whole import draw_whole
 
 __all__ = ["FILE", "write_guide"]
 
@@ -57,9 +59,10 @@ def write_guide(
     on_plate = [(plates or {}).get(piece.name) for piece in pieces]
     listed = report.get("pieces", ())
     picture = trimmed(draw_whole(pieces) if cover is None else cover)
+    joint = joint_of(pieces)
     chapters = [
-        ("What you have", parts_pages(outlines(pieces), on_plate)),
-        ("Putting it together", steps_pages(pieces, assembly.steps, picture)),
+        ("What you have", parts_pages(outlines(joint), on_plate)),
+        ("Putting it together", steps_pages(joint, assembly.steps, picture)),
     ]
     if len(listed) == len(pieces):
         neighbours = [entry["neighbours"] for entry in listed]

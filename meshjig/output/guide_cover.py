@@ -11,16 +11,12 @@ from numpy.typing import NDArray
 
 from meshjig.output.guide_sheet import LEFT, RIGHT, WIDTH, Sheets, text_width
 from meshjig.output.piece import Piece
-from meshjig.output.render import render
-from meshjig.output.scene import scene_of
-from meshjig.output.together import together
-from meshjig.output.view import View, guess_up, view_of
+from meshjig.types import Bools
 
-__all__ = ["cover_of_preview", "draw_cover", "draw_whole", "title_of", "trimmed"]
+__all__ = ["cover_of_preview", "draw_cover", "title_of", "trimmed"]
 
 _PICTURE = (160.0, 140.0)  # mm
 _WHITE = 250
-_SIDE = (30.0, 18.0)  # azimuth and elevation, degrees
 _TITLE = 30.0  # points; less where a name is long
 _BOOK = (
     "In every picture the pieces placed so far are pale; the new ones are hatched, have dark borders and "
@@ -50,20 +46,11 @@ def cover_of_preview(path: Path) -> NDArray[np.uint8]:
 
 def trimmed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Leave out the white border of a picture."""
-    dark = (picture < _WHITE).any(axis=2)
+    dark: Bools = np.any(picture < _WHITE, axis=2)
     rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
     if not len(rows):
         return picture
     return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-
-
-def draw_whole(pieces: Sequence[Piece], size: int = 800) -> NDArray[np.uint8]:
-    """Draw the puzzle put together, (size, size, 3), as the preview does."""
-    V, F, _, piece_of_face = together(pieces)
-    tint = [np.tile(p.colour, (len(p.F), 1)) if p.coat is None else p.coat.rgb.mean(axis=1) for p in pieces]
-    scene = scene_of(V, F, np.concatenate(tint), piece_of_face)
-    view = view_of(V, guess_up(V, F), *_SIDE)
-    return render(scene, View(view.eye, view.axes, view.centre, 1.08 * view.half), size)
 
 
 def draw_cover(
@@ -92,7 +79,9 @@ def draw_cover(
     title = title_of(report)
     size = min(_TITLE, _TITLE * (RIGHT - LEFT) / text_width(title, _TITLE, strong=True))
     sheets.text(LEFT, 38, title, size, strong=True)
-    sheets.text(LEFT, 47, f"A jigsaw puzzle of {_count(len(pieces), 'piece')}, in three dimensions", 13, grey=0.3)
+    sheets.text(
+        LEFT, 47, f"A jigsaw puzzle of {_count(len(pieces), 'piece')}, in three dimensions", 13, grey=0.3
+    )
     width, height = _PICTURE
     sheets.fitted((WIDTH - width) / 2, 56, width, height, picture)
     facts = _facts(pieces, report, n_plates)

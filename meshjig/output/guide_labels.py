@@ -64,7 +64,7 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
 
 
 def _widest(mask: Bools) -> tuple[float, float, float]:
-    """Give the middle and radius of the largest circle within a mask, radius 0 if hardly anything is in it."""
+    """Give the middle and radius of the largest circle within a mask, radius 0 for a mere speck."""
     from scipy.ndimage import distance_transform_edt
 
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
@@ -88,8 +88,8 @@ def _overlaps(boxes: Floats, taken: list[Floats]) -> Bools:
     if not taken:
         return np.zeros(len(boxes), bool)
     b, t = boxes[:, None], np.array(taken)[None]
-    apart = (b[..., 2:] <= t[..., :2]) | (b[..., :2] >= t[..., 2:])
-    return ~apart.any(axis=2).all(axis=1)
+    apart: Bools = np.any((b[..., 2:] <= t[..., :2]) | (b[..., :2] >= t[..., 2:]), axis=2)
+    return np.any(~apart, axis=1)
 
 
 def _beside(x: float, y: float, w: float, h: float, crowd: list[Ints], taken: list[Floats]) -> Floats:
@@ -98,12 +98,13 @@ def _beside(x: float, y: float, w: float, h: float, crowd: list[Ints], taken: li
         2 * np.pi * np.arange(_TURNS) / _TURNS, (1.0 + 0.5 * np.arange(_FAR)) * (w + h) / 2
     )
     at = np.stack([x + (far * np.cos(turn)).ravel(), y + (far * np.sin(turn)).ravel()], 1)
-    height, width = (side - 1 for side in crowd[0].shape)
-    at = np.clip(at, (w / 2, h / 2), (width - w / 2, height - h / 2))
-    boxes = np.hstack([at - (w / 2, h / 2), at + (w / 2, h / 2)])
+    half = np.array([w, h]) / 2
+    frame = np.array(crowd[0].shape)[::-1] - 1
+    at = np.clip(at, half, frame - half)
+    boxes = np.hstack([at - half, at + half])
     cost = np.hypot(*(at - (x, y)).T) / (w + h)
     cost += 3.0 * _share(crowd[0], boxes) + 0.8 * _share(crowd[1], boxes)
-    cost += 100.0 * _overlaps(boxes, taken) + 100.0 * (np.abs(at - (x, y)) < (w / 2, h / 2)).all(axis=1)
+    cost += 100.0 * _overlaps(boxes, taken) + 100.0 * (np.abs(at - (x, y)) < half).all(axis=1)
     best: Floats = boxes[int(cost.argmin())]
     return best
 

@@ -15,10 +15,20 @@ from meshjig.output.together import together
 from meshjig.output.view import guess_up
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["LightModel", "Stage", "light_model", "outward_of"]
+__all__ = ["Joint", "LightModel", "Stage", "joint_of", "light_model"]
 
 _GRAIN = 0.0125  # of the model's largest extent: what small pictures don't show
 _A_SCENE = 5  # steps; making a scene takes longer than looking through what is not placed yet
+
+
+class Joint(NamedTuple):
+    """All pieces as one mesh."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    piece_of_vertex: Ints  # (n,), counted from 0
+    outer: Bools  # (m,), the face is on the outer side of its piece
+    outward: Floats  # (p, 3), where the outer sides face
 
 
 class Stage(NamedTuple):
@@ -53,12 +63,20 @@ class LightModel:
         return Stage(self._made[last], int(self.first_face[step + 1]))
 
 
-def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> LightModel:
+def joint_of(pieces: Sequence[Piece]) -> Joint:
+    """Join pieces, at least one, and find their outer sides."""
+    V, F, piece_of_vertex, piece_of_face = together(pieces)
+    outward = _outward(pieces)
+    outer = np.einsum("ij,ij->i", area_vectors(V, F), outward[piece_of_face]) > 0
+    return Joint(V, F, piece_of_vertex, outer, outward)
+
+
+def light_model(joint: Joint, steps: Sequence[Sequence[int]]) -> LightModel:
     """Make a puzzle light: points of a piece that lie close together become one.
 
     Parameters
     ----------
-    pieces : sequence of Piece, at least one
+    joint : Joint
     steps : sequence of sequence of int
         Which pieces are placed in each step, counted from 1.
 
@@ -67,11 +85,10 @@ def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> Ligh
     LightModel
         Without the pieces that are in no step.
     """
-    V, F, piece_of_vertex, piece_of_face = together(pieces)
-    turn = _turns(len(pieces), steps)
-    outward = outward_of(pieces)
+    V, F, piece_of_vertex, outer_face, outward = joint
+    turn = _turns(len(outward), steps)
     outer = np.ones(len(V), bool)
-    outer[F] = (np.einsum("ij,ij->i", area_vectors(V, F), outward[piece_of_face]) > 0)[:, None]
+    outer[F] = outer_face[:, None]
     cell = _cells(V, 2 * turn[piece_of_vertex] + outer)
     W = np.stack([np.bincount(cell, x) for x in V.T], 1) / np.bincount(cell)[:, None]
     owner = np.empty(len(W), np.int64)
@@ -95,7 +112,7 @@ def light_model(pieces: Sequence[Piece], steps: Sequence[Sequence[int]]) -> Ligh
     )
 
 
-def outward_of(pieces: Sequence[Piece]) -> Floats:
+def _outward(pieces: Sequence[Piece]) -> Floats:
     """Give where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
     middles = np.array([piece.V.mean(axis=0) for piece in pieces])
     away = middles - middles.mean(axis=0)

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.measure import area_vectors, unit
+from meshjig.measure import unit
 from meshjig.output.footprint import convex_ring, least_rectangle
-from meshjig.output.guide_model import outward_of
-from meshjig.output.piece import Piece
-from meshjig.output.together import together
+from meshjig.output.guide_model import Joint
 from meshjig.types import Floats, Ints
 
 __all__ = ["Outline", "outlines"]
 
-_FINE = 0.05  # mm; drawn no finer
+_FINE = 0.12  # mm; drawn no finer
 
 
 class Outline(NamedTuple):
@@ -26,12 +23,12 @@ class Outline(NamedTuple):
     size: Floats  # (2,), width and height, mm
 
 
-def outlines(pieces: Sequence[Piece]) -> list[Outline]:
+def outlines(joint: Joint) -> list[Outline]:
     """Draw around every piece.
 
     Parameters
     ----------
-    pieces : sequence of Piece, closed solids, at least one
+    joint : Joint
 
     Returns
     -------
@@ -40,18 +37,16 @@ def outlines(pieces: Sequence[Piece]) -> list[Outline]:
     """
     import shapely
 
-    V, F, piece_of_vertex, piece_of_face = together(pieces)
-    outward = outward_of(pieces)
-    front = np.einsum("ij,ij->i", area_vectors(V, F), outward[piece_of_face]) > 0
-    border = _border(F[front], len(V))
-    order = np.argsort(piece_of_vertex[border[:, 0]], kind="stable")
-    border = border[order]
-    start = np.searchsorted(piece_of_vertex[border[:, 0]], np.arange(len(pieces) + 1))
+    V, F, piece_of_vertex, outer, outward = joint
+    border = _border(F[outer], len(V))
+    piece = piece_of_vertex[border[:, 0]]
+    border = border[np.argsort(piece, kind="stable")]
+    parts = np.split(border, np.cumsum(np.bincount(piece, minlength=len(outward)))[:-1])
     made = []
-    for i in range(len(pieces)):
+    for i, part in enumerate(parts):
         flat = _plane(outward[i])
-        rings = [V[loop] @ flat.T for loop in _loops(border[start[i] : start[i + 1]])]
-        ring = max(rings, key=_area, default=pieces[i].V[:3] @ flat.T)
+        whole = V[piece_of_vertex == i][:3] if not len(part) else V[:0]
+        ring = max((V[loop] @ flat.T for loop in _loops(part)), key=_area, default=whole @ flat.T)
         ring = shapely.get_coordinates(shapely.simplify(shapely.linearrings(ring), _FINE))[:-1]
         made.append(_lying(ring))
     return made

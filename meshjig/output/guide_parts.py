@@ -14,8 +14,8 @@ from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, t
 __all__ = ["parts_pages"]
 
 _A_PAGE = 130  # pieces, that should do with one page
-_SCALES = (1.0, 0.75, 0.6, 0.5, 0.45, 0.4, 0.35, 0.3, 0.25, 0.2, 0.15, 0.1)
-_GAP, _CAPTION, _HEADING = 3.0, 4.5, 8.0  # mm
+_SCALES = (1.0, 0.75, 0.6, 0.5, 0.45, 0.4, 0.38, 0.36, 0.33, 0.3, 0.25, 0.2, 0.15, 0.1)
+_GAP, _CAPTION, _HEADING = 2.6, 4.0, 7.5  # mm
 _SMALL = 6.0  # points
 _FIRST = TOP + 4.0  # below the words on how large things are drawn
 
@@ -79,8 +79,8 @@ def _flow(shapes: Sequence[Outline], plates: Sequence[int | None], scale: float)
 
 
 def _heading(plate: int | None, mine: list[int]) -> str:
-    where = "All pieces" if plate is None else f"Plate {plate}"
-    return f"{where}: {len(mine)} piece{'' if len(mine) == 1 else 's'}"
+    count = f"{len(mine)} piece{'' if len(mine) == 1 else 's'}"
+    return count if plate is None else f"Plate {plate}: {count}"
 
 
 def _draw(shapes: Sequence[Outline], scale: float, spots: Sequence[_Spot], sheets: Sheets) -> None:

@@ -17,14 +17,16 @@ from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Frame", "Picture", "draw_step", "silhouette"]
 
+_ROUGH = 3  # pixels between the rays that find a silhouette
 _COARSE = 4  # pixels between the rays that find out where the model is
 _PLACED = (0.91, 0.91, 0.91)  # sRGB in full light
 _NEW = (1.00, 0.80, 0.42)
 _GHOST = 0.955  # sRGB of the model to be
 _GHOST_LINE = 0.86
+_SOFT = 30  # pixels from the border of a picture within which the model to be fades out
 _LAMP = (-0.45, 0.65, -0.62)  # towards it, in the eye's right, up, forward
 _THIN, _BOLD = 0.55, 0.95  # how black borders are between pieces, and around new ones
-_HATCH, _STROKE, _PERIOD = 0.30, 0.9, 9  # how black; pixels
+_HATCH, _STROKE, _PERIOD = 0.30, 0.8, 8  # how black; pixels
 _JUMP = 0.02  # in depth, radii of the model: what is behind begins
 
 
@@ -51,12 +53,12 @@ class Picture:
 
 
 def silhouette(stage: Stage, view: View, frame: Frame) -> Bools:
-    """Find out where a model is in a picture, (height, width), in steps of two pixels."""
+    """Find out where a model is in a picture, (height, width), roughly."""
     from scipy.ndimage import binary_closing
 
-    found = np.pad(_grid(stage, view, frame, 2), 2)
+    found = np.pad(_grid(stage, view, frame, _ROUGH), 2)
     found = binary_closing(found, iterations=2)[2:-2, 2:-2]  # rays slip through between pieces
-    return found.repeat(2, 0).repeat(2, 1)[: frame.height, : frame.width]
+    return found.repeat(_ROUGH, 0).repeat(_ROUGH, 1)[: frame.height, : frame.width]
 
 
 def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost: Bools) -> Picture:
@@ -76,7 +78,7 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
     """
     scene = stage.scene
     row, column = np.nonzero(_worth_a_ray(stage, view, frame))
-    x, y = frame.plane(column + 0.5, row + 0.5)
+    x, y = frame.plane(column.astype(np.float64) + 0.5, row.astype(np.float64) + 0.5)
     met = meet(stage, view.eye, ways(view, x, y))
     hit = np.flatnonzero(met.face >= 0)
     row, column, face = row[hit], column[hit], met.face[hit]
@@ -89,8 +91,8 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
     fresh = is_new[piece]
 
     rgb = np.ones((*ghost.shape, 3), np.float32)
-    rgb[ghost] = _GHOST
-    rgb[_outline(ghost)] = _GHOST_LINE
+    pale = np.where(_outline(ghost), 1 - _GHOST_LINE, (1 - _GHOST) * ghost).astype(np.float32)
+    rgb -= (pale * _fade(ghost.shape))[..., None]
     shade = _shade(scene.vertex_normal, view)[scene.F[face]]
     light = np.einsum("ij,ij->i", shade, met.corner[hit])
     tint = np.array([_PLACED, _NEW], np.float32)[fresh[row, column].astype(np.int64)]
@@ -120,8 +122,14 @@ def _shade(normal: Floats32, view: View) -> Floats32:
     lamp = (unit(np.array(_LAMP)) @ view.axes).astype(np.float32)
     toward_eye, up = -view.axes[2].astype(np.float32), view.axes[1].astype(np.float32)
     lit = np.clip(normal @ lamp, 0, 1)
-    shade = 0.60 + 0.22 * lit + 0.14 * np.clip(normal @ toward_eye, 0, 1) + 0.06 * (normal @ up)
+    shade = 0.64 + 0.20 * lit + 0.14 * np.clip(normal @ toward_eye, 0, 1) + 0.06 * (normal @ up)
     return np.minimum(shade, 1).astype(np.float32)
+
+
+def _fade(shape: tuple[int, ...]) -> Floats32:
+    """Give 0 at the border of a picture, rising to 1 some way within."""
+    y, x = (np.minimum(np.arange(n), np.arange(n)[::-1]).astype(np.float32) / _SOFT for n in shape)
+    return np.minimum(np.minimum(y[:, None], x), 1)
 
 
 def _outline(inside: Bools) -> Bools:

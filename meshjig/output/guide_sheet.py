@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal
 
@@ -125,7 +125,9 @@ class Sheets:
         if grey is not None:
             pen.setFillGray(grey)
         pen.roundRect(
-            *(v * _POINT for v in (x, HEIGHT - y - h, w, h, round)), stroke=grey is None, fill=grey is not None
+            *(v * _POINT for v in (x, HEIGHT - y - h, w, h, round)),
+            stroke=grey is None,
+            fill=grey is not None,
         )
 
     def shape(self, ring: Floats, *, width: float = 0.15, grey: float = 0.9) -> None:

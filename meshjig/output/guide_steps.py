@@ -10,20 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.output.guide_labels import Label, place_labels
-from meshjig.output.guide_model import Stage, light_model
+from meshjig.output.guide_model import Joint, Stage, light_model
 from meshjig.output.guide_picture import Frame, draw_step, silhouette
 from meshjig.output.guide_sheet import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, tag_size, text_width, wrapped
 from meshjig.output.guide_views import Camera, cameras, choose_cameras
-from meshjig.output.piece import Piece
 from meshjig.types import Floats
 
 __all__ = ["steps_pages"]
 
 _GRIDS = ((2, 3), (3, 2))  # columns and rows of pictures on a page
-_CAPTION = 12.0  # mm above a picture
+_LINE, _NUMBER = 3.4, 15.0  # mm: a line of pieces, and room for the number of a step
 _GAP = 6.0
 _START = TOP - 6.0
-_PIXELS = 6.0  # a mm
+_PIXELS = 5.5  # a mm
 _TAG = 7.0  # points
 _WORDS = 8.0
 _MARGIN = 0.96  # of a picture, filled by what it shows
@@ -36,7 +35,7 @@ class _Shot:
 
     step: int  # counted from 1
     part: str  # "", or a, b, ... where a step has more pictures
-    new: list[int]  # pieces counted from 1
+    new: list[int]  # pieces counted from 0
     place: str
     rgb: NDArray[np.uint8]
     labels: list[Label]
@@ -46,6 +45,12 @@ class _Shot:
 class _Grid:
     columns: int
     rows: int
+    most: int  # pieces a step
+
+    @property
+    def caption(self) -> float:
+        lines = wrapped(" ".join(["0000,"] * self.most), _WORDS, self.width - _NUMBER)
+        return 5.2 + _LINE * max(len(lines), 2)
 
     @property
     def width(self) -> float:
@@ -53,17 +58,15 @@ class _Grid:
 
     @property
     def height(self) -> float:
-        return (BOTTOM - _START + _GAP) / self.rows - _GAP - _CAPTION
+        return (BOTTOM - _START + _GAP) / self.rows - _GAP - self.caption
 
 
-def steps_pages(
-    pieces: Sequence[Piece], steps: Sequence[Sequence[int]], whole: NDArray[np.uint8]
-) -> list[Page]:
+def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: NDArray[np.uint8]) -> list[Page]:
     """Draw all steps.
 
     Parameters
     ----------
-    pieces : sequence of Piece, at least one
+    joint : Joint
     steps : sequence of sequence of int, pieces counted from 1
     whole : (h, w, 3) uint8, a picture of the puzzle put together, for where the last page has room
 
@@ -71,10 +74,11 @@ def steps_pages(
     -------
     list of callables, each draws a page
     """
-    model = light_model(pieces, steps)
+    model = light_model(joint, steps)
     places = cameras(model)
     extent = np.max([place.extent for place in places], axis=0)
-    grids = [_Grid(*grid) for grid in _GRIDS]
+    most = max(map(len, steps), default=0)
+    grids = [_Grid(*grid, most) for grid in _GRIDS]
     scales = [min(grid.width / extent[0], grid.height / extent[1]) for grid in grids]
     grid, scale = max(zip(grids, scales, strict=True), key=lambda both: both[1])
     shots: list[_Shot] = []
@@ -85,15 +89,15 @@ def steps_pages(
         stage, new = model.until(number), [piece - 1 for piece in step]
         placed = model.V[: model.first_vertex[number + 1]]
         chosen = choose_cameras(model, stage, new, places, last)
-        for part, camera in enumerate(chosen):
+        for part, (camera, mine) in enumerate(chosen):
             place = places[camera]
             frame = _frame(grid, _MARGIN * scale, place, placed)
             ghost = silhouette(Stage(model.scene, len(model.scene.F)), place.view, frame)
-            picture = draw_step(stage, place.view, frame, new, ghost)
-            labels = place_labels(picture.piece, new, [_tag_pixels(piece) for piece in step])
+            picture = draw_step(stage, place.view, frame, mine if part else new, ghost)
+            labels = place_labels(picture.piece, mine, [_tag_pixels(piece) for piece in mine])
             name = "abcdefgh"[part % 8] if len(chosen) > 1 else ""
-            shots.append(_Shot(number + 1, name, list(step), place.words, picture.rgb, labels))
-        last = chosen[0]
+            shots.append(_Shot(number + 1, name, mine, place.words, picture.rgb, labels))
+        last = chosen[0][0]
     a_page = grid.columns * grid.rows
     pages = [shots[k : k + a_page] for k in range(0, len(shots), a_page)]
     return [partial(_draw, grid, page, whole if page is pages[-1] else None) for page in pages]
@@ -115,7 +119,7 @@ def _frame(grid: _Grid, scale: float, place: Camera, placed: Floats) -> Frame:
 
 
 def _tag_pixels(piece: int) -> tuple[float, float]:
-    width, height = tag_size(str(piece), _TAG)
+    width, height = tag_size(str(piece + 1), _TAG)
     return (width + 0.4) * _PIXELS, (height + 0.4) * _PIXELS
 
 
@@ -123,14 +127,14 @@ def _draw(grid: _Grid, shots: Sequence[_Shot], whole: NDArray[np.uint8] | None, 
     for k, shot in enumerate(shots):
         row, column = divmod(k, grid.columns)
         x = LEFT + column * (grid.width + _GAP)
-        y = _START + row * (grid.height + _CAPTION + _GAP)
+        y = _START + row * (grid.height + grid.caption + _GAP)
         _draw_shot(shot, x, y, grid, sheets)
     used = -(-len(shots) // grid.columns)
     if whole is not None and used < grid.rows:
-        y = _START + used * (grid.height + _CAPTION + _GAP)
+        y = _START + used * (grid.height + grid.caption + _GAP)
         sheets.line(LEFT, y, RIGHT, y, width=0.3, grey=0.3)
         sheets.text(LEFT, y + 7, "Done", 17, strong=True)
-        sheets.fitted(LEFT, y + _CAPTION, RIGHT - LEFT, BOTTOM - y - _CAPTION, whole)
+        sheets.fitted(LEFT, y + grid.caption, RIGHT - LEFT, BOTTOM - y - grid.caption, whole)
 
 
 def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> None:
@@ -138,18 +142,17 @@ def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> 
     number = f"{shot.step}{shot.part}"
     sheets.text(x, y + 7, number, 17, strong=True)
     left = x + max(text_width(number, 17, strong=True) + 3, 11)
-    lines = wrapped(", ".join(map(str, shot.new)), _WORDS, x + grid.width - left)
-    for k, words in enumerate(lines[:2]):
-        sheets.text(left, y + 4 + 3.4 * k, words, _WORDS)
-    sheets.text(left, y + 4 + 3.4 * min(len(lines), 2), shot.place, 6.5, grey=0.4)
-    top = y + _CAPTION
+    lines = wrapped(", ".join(str(piece + 1) for piece in shot.new), _WORDS, x + grid.width - left)
+    for k, words in enumerate(lines):
+        sheets.text(left, y + 4 + _LINE * k, words, _WORDS)
+    sheets.text(left, y + 4 + _LINE * len(lines), shot.place, 6.5, grey=0.4)
+    top = y + grid.caption
     sheets.picture(x, top, grid.width, grid.height, shot.rgb)
     for label in shot.labels:
-        at = np.array(label.at) / _PIXELS + (x, top)
         if label.tip is not None:
-            tip = np.array(label.tip) / _PIXELS + (x, top)
-            sheets.line(*at.tolist(), *tip.tolist(), width=0.25)
-            sheets.dot(*tip.tolist())
+            end = x + label.tip[0] / _PIXELS, top + label.tip[1] / _PIXELS
+            sheets.line(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, *end, width=0.25)
+            sheets.dot(*end)
     for label in shot.labels:
-        at = np.array(label.at) / _PIXELS + (x, top)
-        sheets.tag(*at.tolist(), str(label.piece + 1), _TAG)
+        number = str(label.piece + 1)
+        sheets.tag(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, number, _TAG)

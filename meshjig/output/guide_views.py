@@ -20,7 +20,7 @@ _RAYS = 60  # a piece
 _INSIDE = 0.6  # worth of a piece's inner side, seen through an opening
 _ENOUGH = 0.3  # of a piece's outline, in mm2 of half its surface: it is found at a glance
 _SAME = 0.2  # how much worse a view may be that spares turning the model
-_HIDDEN = 0.3  # of enough, below which a piece deserves another picture
+_HIDDEN = 0.2  # of enough, below which a piece deserves another picture
 _BETTER = 0.3  # how much more of enough the other picture has to show
 
 
@@ -56,7 +56,7 @@ def cameras(model: LightModel) -> list[Camera]:
 
 def choose_cameras(
     model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera], last: int
-) -> list[int]:
+) -> list[tuple[int, list[int]]]:
     """Choose the places that show the new pieces best.
 
     Parameters
@@ -70,19 +70,29 @@ def choose_cameras(
 
     Returns
     -------
-    list of int
-        One place; more where a piece can hardly be seen from the first, but well from another.
+    list of (int, list of int)
+        One place with all pieces; more where some can hardly be seen from the first, but from another:
+        each with those pieces that it is there for.
     """
     shown = np.minimum(_seen(model, stage, new, places) / _ENOUGH, 1)
     total = shown.sum(axis=1)
     total[last] += _SAME * len(new)
     chosen = [int(total.argmax())]
+    best = shown[chosen[0]].copy()
+    home = np.zeros(len(new), np.int64)
     while True:
-        best = shown[chosen].max(axis=0)
-        gain = np.where((best < _HIDDEN) & (shown > best + _BETTER), shown - best, 0).sum(axis=1)
+        better = (best < _HIDDEN) & (shown > best + _BETTER)
+        gain = np.where(better, shown - best, 0).sum(axis=1)
         if not gain.any():
-            return chosen
-        chosen.append(int(gain.argmax()))
+            break
+        another = int(gain.argmax())
+        home[better[another]] = len(chosen)
+        best = np.maximum(best, shown[another])
+        chosen.append(another)
+    whose = [
+        [piece for piece, at in zip(new, home.tolist(), strict=True) if at == k] for k in range(len(chosen))
+    ]
+    return [(camera, mine) for camera, mine in zip(chosen, whose, strict=True) if mine]
 
 
 def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera]) -> Floats:
