@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.measure import area_vectors
+from meshjig.measure import area_vectors, unit
 from meshjig.output.piece import Piece
 from meshjig.output.scene import Scene, scene_of, shifted
 from meshjig.output.together import together
@@ -18,6 +18,7 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["Joint", "LightModel", "Stage", "joint_of", "light_model"]
 
 _GRAIN = 0.0125  # of the model's largest extent: what small pictures don't show
+_UPRIGHT = 1e-6  # cosine to the outward direction up to which a face is a wall
 _A_SCENE = 5  # steps; making a scene takes longer than looking through what is not placed yet
 
 
@@ -67,7 +68,8 @@ def joint_of(pieces: Sequence[Piece]) -> Joint:
     """Join pieces, at least one, and find their outer sides."""
     V, F, piece_of_vertex, piece_of_face = together(pieces)
     outward = _outward(pieces)
-    outer = np.einsum("ij,ij->i", area_vectors(V, F), outward[piece_of_face]) > 0
+    A, n = area_vectors(V, F), unit(outward)[piece_of_face]
+    outer = np.einsum("ij,ij->i", A, n) > _UPRIGHT * np.sqrt(np.einsum("ij,ij->i", A, A))
     return Joint(V, F, piece_of_vertex, outer, outward)
 
 

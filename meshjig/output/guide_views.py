@@ -19,6 +19,7 @@ _ELEVATIONS = (20.0, 48.0)
 _RAYS = 60  # a piece
 _INSIDE = 0.6  # worth of a piece's inner side, seen through an opening
 _ENOUGH = 0.3  # of a piece's outline, in mm2 of half its surface: it is found at a glance
+_BEFORE = 2e-3  # of the distance from the eye: what a ray meets there hides nothing
 _SAME = 0.2  # how much worse a view may be that spares turning the model
 _HIDDEN = 0.2  # of enough, below which a piece deserves another picture
 _BETTER = 0.3  # how much more of enough the other picture has to show
@@ -98,7 +99,7 @@ def choose_cameras(
 def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera]) -> Floats:
     """Tell how much of each new piece is seen from each place, in shares of half its surface, (c, p).
 
-    Rays go from the eyes to some faces of each piece; those count that meet nothing before.
+    Rays go from the eyes to some faces of each piece; those count that meet nothing else before.
     """
     owner = stage.scene.id[: stage.n_faces]
     faces = [_some(np.flatnonzero(owner == piece)) for piece in new]
@@ -111,7 +112,8 @@ def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[
     facing = -np.einsum("cfk,fk->cf", toward, A) / np.linalg.norm(toward, axis=2)
     camera, ray = np.nonzero(facing > 0)
     met = meet(stage, eye[camera], toward[camera, ray].astype(np.float32))
-    free = met.face == face[ray]
+    near = met.depth * stage.scene.radius > 1 - _BEFORE  # thin parts may be one sheet, twice
+    free = near & (met.face >= 0) & (stage.scene.id[met.face] == owner[face[ray]])
     value = (facing[camera, ray] * worth[ray])[free]
     n = len(new)
     seen = np.bincount((camera * n + piece[ray])[free], value, len(places) * n).reshape(-1, n)
