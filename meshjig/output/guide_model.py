@@ -47,7 +47,7 @@ class LightModel:
     V: Floats  # (n, 3), mm
     middle: Floats  # (m, 3), of the faces, mm
     area_vector: Floats  # (m, 3), mm2, outward
-    outside: Bools  # (m,), the face is on the outer side of its piece
+    outside: Floats  # (m,), cosine between the face and where the outer side of its piece faces
     up: Floats  # (3,)
     first_vertex: Ints  # (s + 1,), where the vertices of each step begin
     first_face: Ints  # (s + 1,)
@@ -107,7 +107,7 @@ def light_model(joint: Joint, steps: Sequence[Sequence[int]]) -> LightModel:
         W,
         W[G].mean(axis=1),
         A,
-        np.einsum("ij,ij->i", A, outward[piece]) > 0,
+        np.einsum("ij,ij->i", unit(A), unit(outward)[piece]),
         guess_up(V, F),
         first_vertex,
         first_face,

@@ -21,8 +21,7 @@ _ROUGH = 3  # pixels between the rays that find a silhouette
 _COARSE = 4  # pixels between the rays that find out where the model is
 _PLACED = (0.91, 0.91, 0.91)  # sRGB in full light
 _NEW = (1.00, 0.80, 0.42)
-_GHOST = 0.955  # sRGB of the model to be
-_GHOST_LINE = 0.86
+_GHOST = np.float32(0.95)  # sRGB of the model to be
 _SOFT = 30  # pixels from the border of a picture within which the model to be fades out
 _LAMP = (-0.45, 0.65, -0.62)  # towards it, in the eye's right, up, forward
 _THIN, _BOLD = 0.55, 0.95  # how black borders are between pieces, and around new ones
@@ -76,6 +75,8 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
     -------
     Picture
     """
+    from scipy.ndimage import uniform_filter
+
     scene = stage.scene
     row, column = np.nonzero(_worth_a_ray(stage, view, frame))
     x, y = frame.plane(column.astype(np.float64) + 0.5, row.astype(np.float64) + 0.5)
@@ -91,8 +92,7 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
     fresh = is_new[piece]
 
     rgb = np.ones((*ghost.shape, 3), np.float32)
-    pale = np.where(_outline(ghost), 1 - _GHOST_LINE, (1 - _GHOST) * ghost).astype(np.float32)
-    rgb -= (pale * _fade(ghost.shape))[..., None]
+    rgb -= ((1 - _GHOST) * uniform_filter(ghost.astype(np.float32), 7) * _fade(ghost.shape))[..., None]
     shade = _shade(scene.vertex_normal, view)[scene.F[face]]
     light = np.einsum("ij,ij->i", shade, met.corner[hit])
     tint = np.array([_PLACED, _NEW], np.float32)[fresh[row, column].astype(np.int64)]
@@ -130,13 +130,6 @@ def _fade(shape: tuple[int, ...]) -> Floats32:
     """Give 0 at the border of a picture, rising to 1 some way within."""
     y, x = (np.minimum(np.arange(n), np.arange(n)[::-1]).astype(np.float32) / _SOFT for n in shape)
     return np.minimum(np.minimum(y[:, None], x), 1)
-
-
-def _outline(inside: Bools) -> Bools:
-    line = np.zeros(inside.shape, bool)
-    line[1:] |= inside[1:] != inside[:-1]
-    line[:, 1:] |= inside[:, 1:] != inside[:, :-1]
-    return line
 
 
 def _ink(piece: Ints, depth: Floats32, fresh: Bools) -> Floats32:

@@ -18,9 +18,10 @@ _AZIMUTHS = tuple(range(30, 390, 45))  # degrees
 _ELEVATIONS = (20.0, 48.0)
 _RAYS = 60  # a piece
 _INSIDE = 0.6  # worth of a piece's inner side, seen through an opening
+_WALL = 0.1  # worth of the walls around it
 _ENOUGH = 0.3  # of a piece's outline, in mm2 of half its surface: it is found at a glance
 _BEFORE = 2e-3  # of the distance from the eye: what a ray meets there hides nothing
-_SAME = 0.2  # how much worse a view may be that spares turning the model
+_SAME = 0.3  # how much worse a view may be that spares turning the model
 _HIDDEN = 0.2  # of enough, below which a piece deserves another picture
 _BETTER = 0.3  # how much more of enough the other picture has to show
 
@@ -105,14 +106,16 @@ def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[
     faces = [_some(np.flatnonzero(owner == piece)) for piece in new]
     face, piece = np.concatenate(faces), np.repeat(np.arange(len(new)), [len(some) for some in faces])
     A = model.area_vector[face]
-    worth = np.where(model.outside[face], 1.0, _INSIDE)
-    half = np.maximum(np.bincount(piece, np.linalg.norm(A, axis=1), len(new)) / 2, 1e-12)
+    outside = model.outside[face]
+    flat = np.minimum(_WALL + 1.2 * np.abs(outside), 1)
+    worth = flat * np.where(outside > 0, 1.0, _INSIDE)
+    half = np.maximum(np.bincount(piece, flat * np.linalg.norm(A, axis=1), len(new)) / 2, 1e-12)
     eye = np.array([place.view.eye for place in places])
     toward = model.middle[face] - eye[:, None]
     facing = -np.einsum("cfk,fk->cf", toward, A) / np.linalg.norm(toward, axis=2)
     camera, ray = np.nonzero(facing > 0)
     met = meet(stage, eye[camera], toward[camera, ray].astype(np.float32))
-    near = met.depth * stage.scene.radius > 1 - _BEFORE  # thin parts may be one sheet, twice
+    near = met.depth > (1 - _BEFORE) / stage.scene.radius  # thin parts may be one sheet, twice
     free = near & (met.face >= 0) & (stage.scene.id[met.face] == owner[face[ray]])
     value = (facing[camera, ray] * worth[ray])[free]
     n = len(new)
