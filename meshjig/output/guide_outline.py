@@ -13,7 +13,7 @@ from meshjig.types import Floats, Ints
 
 __all__ = ["Outline", "outlines"]
 
-_FINE = 0.12  # mm; drawn no finer
+_FINE = 0.006  # of a piece's extent; drawn no finer
 
 
 class Outline(NamedTuple):
@@ -38,17 +38,17 @@ def outlines(joint: Joint) -> list[Outline]:
     import shapely
 
     V, F, piece_of_vertex, outer, outward = joint
-    border = _border(F[outer], len(V))
-    piece = piece_of_vertex[border[:, 0]]
-    border = border[np.argsort(piece, kind="stable")]
-    parts = np.split(border, np.cumsum(np.bincount(piece, minlength=len(outward)))[:-1])
+    rings: list[Floats | None] = [None] * len(outward)
+    for loop in _loops(_border(F[outer], len(V))):
+        piece = int(piece_of_vertex[loop[0]])
+        ring, longest = V[loop] @ _plane(outward[piece]).T, rings[piece]
+        if longest is None or _area(ring) > _area(longest):
+            rings[piece] = ring
     made = []
-    for i, part in enumerate(parts):
-        flat = _plane(outward[i])
-        whole = V[piece_of_vertex == i][:3] if not len(part) else V[:0]
-        ring = max((V[loop] @ flat.T for loop in _loops(part)), key=_area, default=whole @ flat.T)
-        ring = shapely.get_coordinates(shapely.simplify(shapely.linearrings(ring), _FINE))[:-1]
-        made.append(_lying(ring))
+    for piece, found in enumerate(rings):
+        ring = V[piece_of_vertex == piece] @ _plane(outward[piece]).T if found is None else found
+        fine = _FINE * float(np.ptp(ring, axis=0).max())
+        made.append(_lying(shapely.get_coordinates(shapely.simplify(shapely.linearrings(ring), fine))[:-1]))
     return made
 
 
@@ -67,21 +67,20 @@ def _border(F: Ints, n: int) -> Ints:
 
 
 def _loops(border: Ints) -> list[list[int]]:
-    """Chain half-edges to closed curves."""
-    following: dict[int, list[int]] = {}
-    for a, b in border.tolist():
-        following.setdefault(a, []).append(b)
+    """Chain half-edges, at each vertex as many in as out, to closed curves of vertices."""
+    onward = np.empty(len(border), np.int64)
+    onward[np.argsort(border[:, 1], kind="stable")] = np.argsort(border[:, 0], kind="stable")
+    after: list[int] = onward.tolist()
+    start: list[int] = border[:, 0].tolist()
+    seen = [False] * len(start)
     loops = []
-    while following:
-        here = next(iter(following))
+    for first in range(len(start)):
         loop = []
-        while here in following:
-            loop.append(here)
-            onward = following[here]
-            after = onward.pop()
-            if not onward:
-                del following[here]
-            here = after
+        here = first
+        while not seen[here]:
+            seen[here] = True
+            loop.append(start[here])
+            here = after[here]
         if len(loop) > 2:
             loops.append(loop)
     return loops

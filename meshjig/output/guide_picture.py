@@ -25,7 +25,7 @@ _GHOST = np.float32(0.95)  # sRGB of the model to be
 _SOFT = 30  # pixels from the border of a picture within which the model to be fades out
 _LAMP = (-0.45, 0.65, -0.62)  # towards it, in the eye's right, up, forward
 _THIN, _BOLD = 0.55, 0.95  # how black borders are between pieces, and around new ones
-_HATCH, _STROKE, _PERIOD = 0.30, 0.8, 8  # how black; pixels
+_HATCH, _STROKE, _PERIOD = 0.30, 0.7, 7  # how black; pixels
 _JUMP = 0.02  # in depth, radii of the model: what is behind begins
 
 
