@@ -12,9 +12,9 @@ __all__ = ["table_pages"]
 
 _SIZE = 7.5  # points
 _LINE = 3.9  # mm
-_NUMBER = 8.5  # mm, the width of a column with a number
-_LONGEST = 62.0  # mm, of a line of neighbours
-_GUTTER = 5.0
+_NUMBER = 7.5  # mm, the width of a column with a number
+_LONGEST = 33.0  # mm, of a line of neighbours that makes columns wider
+_GUTTER = 4.0
 _FIRST = TOP + 2.2  # below the heads
 
 
@@ -43,21 +43,21 @@ def table_pages(
     lists = [", ".join(map(str, near)) or "none" for near in neighbours]
     widest = min(max(text_width(words, _SIZE) for words in lists), _LONGEST) + 1
     heads = ["Piece", "Step", *(["Plate"] if with_plates else [])]
+    numbers = _NUMBER * len(heads)
+    side_by_side = max(int((RIGHT - LEFT + _GUTTER) // (numbers + widest + _GUTTER)), 1)
+    width = (RIGHT - LEFT + _GUTTER) / side_by_side - _GUTTER
     rows = [
         _Row(
             [str(i), step_of.get(i, ""), *([str(plate or "")] if with_plates else [])],
-            wrapped(words, _SIZE, widest),
+            wrapped(words, _SIZE, width - numbers - 1),
         )
         for i, (words, plate) in enumerate(zip(lists, plates, strict=True), 1)
     ]
-    needed = _NUMBER * len(heads) + widest
-    side_by_side = max(int((RIGHT - LEFT + _GUTTER) // (needed + _GUTTER)), 1)
     n_lines = sum(len(row.lines) for row in rows)
     a_page = side_by_side * int((BOTTOM - _FIRST) / _LINE)
     n_columns = side_by_side * -(-n_lines // a_page)
     columns = _columns(rows, _FIRST + _LINE * (n_lines / n_columns + 1))
     pages = [columns[k : k + side_by_side] for k in range(0, len(columns), side_by_side)]
-    width = (RIGHT - LEFT + _GUTTER) / side_by_side - _GUTTER
     return [partial(_draw, heads, page, width) for page in pages]
 
 
