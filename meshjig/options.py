@@ -92,6 +92,8 @@ class Options(BaseModel):
     explode: FiniteFloat = Field(
         0.6, ge=0, description="how far apart the exploded preview is, in distances from the middle"
     )
+    viewer: bool = Field(True, description="write viewer.html")
+    guide: bool = Field(True, description="write guide.pdf")
     turntable: bool = Field(False, description="also draw turntable.gif, the puzzle from all around")
     curves: bool = Field(
         False, description="also write the cut curves: SVG in the plane, OBJ and DXF in space"

@@ -56,6 +56,7 @@ class Puzzle:
         *,
         preview: bool = True,
         viewer: bool = True,
+        guide: bool = True,
     ) -> Path:
         """Write the puzzle to a folder.
 
@@ -67,6 +68,7 @@ class Puzzle:
         formats : tuple of "stl", "ply", "3mf", "obj", "glb"; as the options have it when not given
         preview : bool, also draw preview.png
         viewer : bool, also write viewer.html
+        guide : bool, also write guide.pdf
 
         Returns
         -------
@@ -87,12 +89,36 @@ class Puzzle:
                 plane_curves=self.curves.plane,
                 space_curves=self.curves.space,
                 preview=preview,
-                viewer=viewer,
+                viewer=viewer and asked.get("viewer", True),
+                guide=guide and asked.get("guide", True),
                 core=self.core,
                 **{key: asked[key] for key in ("plate", "nest", "explode", "turntable") if key in asked},
             )
         )
         return Path(directory)
+
+    def plot(self, size: int = 800) -> Any:
+        """Draw the puzzle put together.
+
+        Parameters
+        ----------
+        size : int, pixels along each side
+
+        Returns
+        -------
+        PIL.Image.Image
+            A notebook shows it; elsewhere, its ``show`` and ``save`` do.
+
+        Raises
+        ------
+        OutputError
+            There are no pieces.
+        """
+        from PIL import Image
+
+        from meshjig.output.whole import draw_whole
+
+        return Image.fromarray(draw_whole(self.pieces, size))
 
     def _repr_html_(self) -> str:
         """Show the viewer in a notebook."""

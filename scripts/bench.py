@@ -145,7 +145,7 @@ def _worker(mesh: Path, out: Path, pieces: int, method: str) -> int:
         mesh, size=150.0, pieces=pieces, faces="all", layout="tiles", clearance_method=method, progress=note
     )
     start = time.perf_counter()
-    puzzle.save(out, formats=("stl",), preview=False, viewer=False)
+    puzzle.save(out, formats=("stl",), preview=False, viewer=False, guide=False)
     stages = puzzle.report["timings_s"] | {"write": time.perf_counter() - start}
     faces = puzzle.report["input"]["working_faces"]
     print(json.dumps({"pieces": len(puzzle.pieces), "faces": faces, "stages": stages, "memory": memory}))

@@ -1,4 +1,4 @@
-"""A whole puzzle in a folder: pieces, 3MF and the like, preview, curves, report."""
+"""A whole puzzle in a folder: pieces, 3MF and the like, preview, viewer, guide, curves, report."""
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,6 +29,7 @@ def save_puzzle(
     space_curves: Sequence[Floats] = (),
     preview: bool = True,
     viewer: bool = True,
+    guide: bool = True,
     plate: str | None = None,
     nest: Literal["fast", "tight"] = "fast",
     explode: float = 0.6,
@@ -48,6 +49,7 @@ def save_puzzle(
     space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
     preview : bool, also draw preview.png
     viewer : bool, also write viewer.html
+    guide : bool, also write guide.pdf
     plate, nest : str, also lay the pieces on plates, see `write_plates`
     explode : float, how far apart the exploded pieces of the preview, and of a second GLB, are
     turntable : bool, also draw turntable.gif
@@ -99,6 +101,9 @@ def save_puzzle(
 
             with _lap(seconds, "viewer"):
                 write_viewer(folder / FILE, pieces, report, plates=plates)
+        if guide:
+            with _lap(seconds, "guide"):
+                _write_guide(folder, pieces, report, plates)
         from meshjig.output.report import write_report
 
         written = {**report, "timings_s": seconds}
@@ -112,6 +117,18 @@ def _normals(pieces: Sequence[Piece]) -> Floats | None:
         return None
     zero: Floats = np.zeros(3)
     return np.array([zero if piece.outer_normal is None else piece.outer_normal for piece in pieces])
+
+
+def _write_guide(
+    folder: Path, pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int] | None
+) -> None:
+    """Write the guide, with the picture of the preview where there is one."""
+    from meshjig.output.guide import FILE, write_guide
+    from meshjig.output.guide_cover import cover_of_preview
+
+    drawn = folder / "preview.png"
+    cover = cover_of_preview(drawn) if drawn.exists() else None
+    write_guide(folder / FILE, pieces, report, plates=plates, cover=cover)
 
 
 @contextmanager
