@@ -1,0 +1,245 @@
+"""Draw the tiles of a cap around its pole as a net: spokes to the pole, and borders around it."""
+
+from typing import Any
+
+import numpy as np
+
+from meshjig.tiling.graph import BESIDE
+from meshjig.tiling.net import Net
+from meshjig.tiling.polar_bend import Circle, PolarBend
+from meshjig.tiling.polar_plan import PolePlan
+from meshjig.tiling.poles import Rim
+from meshjig.types import Bools, Floats, Ints
+
+__all__ = ["PolarNet", "around_chart", "polar_net"]
+
+TIP = 0.35  # of a spoke from the pole, that no knob is on
+STUB = 1.0  # mm of a spoke before the cap's border, straight: it has to meet the ring's cut there
+WIDEST = 1.6  # radians between corners of a border around the pole: more can't be bent round well
+TURNS = 24  # tried for a row that begins where none of the outer one's spokes end
+
+
+class PolarNet:
+    """Nodes and edges, made one by one.
+
+    Labels of tiles that are the cap's own count from 0; a ring's tile k is -1 - k.
+    """
+
+    def __init__(self) -> None:
+        self.nodes: list[Floats] = []
+        self.ends: list[tuple[int, int]] = []
+        self.sides: list[tuple[int, int]] = []
+        self.may_have_knob: list[bool] = []
+        self.n_own = 0
+        self.bend = PolarBend(np.zeros(2), [])
+
+    def node(self, at: Floats) -> int:
+        """Add a node."""
+        self.nodes.append(at)
+        return len(self.nodes) - 1
+
+    def edge(self, start: int, stop: int, left: int, right: int, knob: bool) -> None:
+        """Add an edge."""
+        self.ends.append((start, stop))
+        self.sides.append((left, right))
+        self.may_have_knob.append(knob)
+
+    def own(self, n: int) -> list[int]:
+        """Give n new tiles."""
+        self.n_own += n
+        return list(range(self.n_own - n, self.n_own))
+
+    def net(self, ring_label: int) -> tuple[Net, Bools]:
+        """Give the net, the ring's labels counted from a number, and which edges may have a knob."""
+        sides = np.array(self.sides, np.int64)
+        sides = np.where(sides < 0, ring_label - 1 - sides, sides)
+        n, none = len(self.ends), np.zeros((len(self.ends), 2), np.int64)
+        every: Ints = np.arange(n)
+        return (
+            Net(
+                nodes=np.array(self.nodes),
+                first_node=np.arange(len(self.nodes)),
+                ends=np.array(self.ends, np.int64),
+                left=sides[:, 0],
+                right=sides[:, 1],
+                kind=none[:, 0],
+                copy=none,
+                first_edge=every,
+                turns=none[:, 0],
+                n_tiles=self.n_own,
+            ),
+            np.array(self.may_have_knob),
+        )
+
+
+def polar_net(polygon: Any, pole: Floats, rim: Rim, plan: PolePlan) -> PolarNet | None:
+    """Lay the rows of a plan around a pole.
+
+    Parameters
+    ----------
+    polygon : shapely.Polygon, the cap
+    pole : (2,) float64, mm
+    rim : Rim, the ring's tiles along the cap's border
+    plan : PolePlan, with more than a capstone that is the whole chart
+
+    Returns
+    -------
+    PolarNet, or None where a spoke would leave the cap on its way to the pole
+    """
+    import shapely
+
+    angles = _angles(rim.start - pole)
+    spokes = shapely.linestrings(np.stack([np.broadcast_to(pole, rim.start.shape), _towards(rim, pole)], 1))
+    round_once = ((np.roll(angles, -1) - angles) % (2 * np.pi)).sum() < 3 * np.pi
+    if not round_once or not shapely.covers(polygon, spokes).all():
+        return None
+    made = PolarNet()
+    rows = _spread(angles, plan.counts)
+    labels = [(-1 - rim.tile).tolist(), *(made.own(n) for n in plan.counts)]
+    reach = _Reach(polygon, pole, angles, rim.start)
+    centre = None if plan.capstone else made.node(pole)
+    stone = made.own(1)[0] if plan.capstone else 0
+    levels = list(plan.levels)
+    borders = [_Border(made, reach, level) for level in levels[1:]]
+    for k, (turns, tiles) in enumerate(zip(rows, labels, strict=True)):
+        inner = borders[k] if k < len(borders) else None
+        for i, angle in enumerate(turns.tolist()):
+            left, right = tiles[i], tiles[i - 1]
+            if inner is not None:
+                start, tip = inner.at(angle), False
+            else:
+                if centre is None:
+                    continue
+                start, tip = centre, True
+            if k == 0:
+                _spoke_to_border(made, start, rim.start[i], tip, left, right)
+            else:
+                _spoke(made, start, borders[k - 1].at(angle), tip, left, right)
+    for k, border in enumerate(borders):
+        last = k == len(borders) - 1 and plan.capstone
+        within = (np.zeros(1), [stone]) if last else (rows[k + 1], labels[k + 1])
+        border.draw((rows[k], labels[k]), within)
+    made.bend = PolarBend(pole, [border.circle() for border in borders])
+    return made
+
+
+def around_chart(polygon: Any) -> PolarNet:
+    """Draw a loop around a chart that is one tile: nothing is cut, but all of it has a label."""
+    import shapely
+
+    loop = shapely.get_coordinates(shapely.buffer(polygon, 0.6 * BESIDE).simplify(0.1 * BESIDE).exterior)
+    made = PolarNet()
+    tile, beyond = made.own(2)
+    if not shapely.is_ccw(shapely.LinearRing(loop)):
+        loop = loop[::-1]
+    number = [made.node(at) for at in loop[:-1]]
+    for a, b in zip(number, number[1:] + number[:1], strict=True):
+        made.edge(a, b, tile, beyond, knob=False)
+    return made
+
+
+class _Reach:
+    """How far the cap's border is from the pole, by angle."""
+
+    def __init__(self, polygon: Any, pole: Floats, angles: Floats, starts: Floats) -> None:
+        self.polygon, self.pole = polygon, pole
+        self.known = dict(zip(angles.tolist(), np.linalg.norm(starts - pole, axis=1).tolist(), strict=True))
+        low = np.array(polygon.bounds)
+        self.far = float(np.hypot(*(low[2:] - low[:2])))
+
+    def point(self, angle: float, level: float) -> Floats:
+        """Give the point at a share of the way from the pole to the border."""
+        import shapely
+
+        ahead = np.array([np.cos(angle), np.sin(angle)])
+        if angle not in self.known:
+            ray = shapely.LineString([self.pole, self.pole + self.far * ahead])
+            hits = shapely.get_coordinates(ray.intersection(self.polygon.exterior))
+            self.known[angle] = float(np.linalg.norm(hits - self.pole, axis=1).min())
+        place: Floats = self.pole + level * self.known[angle] * ahead
+        return place
+
+
+class _Border:
+    """A closed border at one level, its nodes wherever a spoke ends on it."""
+
+    def __init__(self, made: PolarNet, reach: _Reach, level: float) -> None:
+        self.made, self.reach, self.level = made, reach, level
+        self.nodes: dict[float, int] = {}
+
+    def at(self, angle: float) -> int:
+        if angle not in self.nodes:
+            self.nodes[angle] = self.made.node(self.reach.point(angle, self.level))
+        return self.nodes[angle]
+
+    def draw(self, outer: tuple[Floats, list[int]], inner: tuple[Floats, list[int]]) -> None:
+        """Draw the border between two rows, each given by where its tiles begin, and the tiles."""
+        turns = sorted(self.nodes)
+        for a, b in zip(turns, turns[1:] + [turns[0] + 2 * np.pi], strict=True):
+            for part in range(1, n := int(np.ceil((b - a) / WIDEST))):
+                self.at((a + (b - a) * part / n) % (2 * np.pi))
+        turns = sorted(self.nodes)
+        for a, b in zip(turns, turns[1:] + [turns[0] + 2 * np.pi], strict=True):
+            middle = (a + b) / 2
+            stop = b if b in self.nodes else turns[0]
+            self.made.edge(
+                self.at(a), self.at(stop), _tile_at(*inner, middle), _tile_at(*outer, middle), True
+            )
+
+    def circle(self) -> Circle:
+        """Give the border's corners in polar coordinates."""
+        turns = sorted(self.nodes)
+        away = np.array([self.made.nodes[self.nodes[turn]] for turn in turns]) - self.reach.pole
+        return Circle(self.level, np.array(turns), np.linalg.norm(away, axis=1))
+
+
+def _tile_at(turns: Floats, tiles: list[int], angle: float) -> int:
+    """Give the tile of a row that lies at an angle."""
+    begun = (angle - turns) % (2 * np.pi)
+    return tiles[int(begun.argmin())]
+
+
+def _angles(away: Floats) -> Floats:
+    """Give the angles of directions (n, 2), 0 to 2 pi."""
+    angle: Floats = np.arctan2(away[:, 1], away[:, 0]) % (2 * np.pi)
+    return angle
+
+
+def _towards(rim: Rim, pole: Floats) -> Floats:
+    """Give the ends of spokes a little before the cap's border, (n, 2)."""
+    away = pole - rim.start
+    length = np.linalg.norm(away, axis=1, keepdims=True)
+    ends: Floats = rim.start + away / length * np.minimum(STUB, length / 2)
+    return ends
+
+
+def _spread(outer: Floats, counts: tuple[int, ...]) -> list[Floats]:
+    """Give where the tiles of each row begin, angles, from the outermost row inward."""
+    rows = [outer]
+    for n in counts:
+        before = rows[-1]
+        if len(before) % n == 0:  # every second spoke goes on, or every third ...
+            rows.append(before[:: len(before) // n])
+            continue
+        turns = 2 * np.pi / n * (np.arange(n)[None] + np.arange(TURNS)[:, None] / TURNS)
+        apart = np.abs((turns[:, :, None] - before + np.pi) % (2 * np.pi) - np.pi).min((1, 2))
+        rows.append(turns[int(apart.argmax())] % (2 * np.pi))
+    return rows
+
+
+def _spoke(made: PolarNet, start: int, stop: int, tip: bool, left: int, right: int) -> None:
+    if tip:
+        a, b = made.nodes[start], made.nodes[stop]
+        between = made.node(a + TIP * (b - a))
+        made.edge(start, between, left, right, knob=False)
+        start = between
+    made.edge(start, stop, left, right, knob=True)
+
+
+def _spoke_to_border(made: PolarNet, start: int, border: Floats, tip: bool, left: int, right: int) -> None:
+    """Draw a spoke that crosses the cap's border where it has to, and a little beyond."""
+    away = border - made.nodes[start]
+    length = float(np.linalg.norm(away))
+    stub = made.node(border - away * min(STUB / length, 0.4))
+    _spoke(made, start, stub, tip, left, right)
+    made.edge(stub, made.node(border + away / length * 0.9 * BESIDE), left, right, knob=False)
