@@ -20,6 +20,9 @@ __all__ = ["Cap", "close_pole", "drawn_cap"]
 
 SHORTEST_RUN = 0.2  # of a tile's edge: a tile that ends on a cap with less makes no wedge
 LARGEST = 2.0  # times its size that a knob may grow: edges around a pole are short
+MARGIN = 1.15  # times the least neck in the plane: on the surface it may come out narrower
+INSIDE = 0.25  # of a cap's radius, that its pole is at least from its border
+TRIES = 4  # each without the knobs that crossed other edges
 POINTS = 40  # of a template, a part
 
 
@@ -60,7 +63,7 @@ def close_pole(
         return None
     if plan.capstone and len(plan.levels) == 1:
         return Cap(around_chart(polygon), plan, 0)
-    net = polar_net(polygon, _middle(polygon) if pole.tip is None else pole.tip, rim, plan)
+    net = polar_net(polygon, _middle(polygon, pole.tip), rim, plan)
     if net is None:
         plan = PolePlan((1.0,), (), True, "the end is not round enough for wedges")
         whole = plan_pole("capstone", radius, 0.0, 0)
@@ -95,24 +98,40 @@ def drawn_cap(
     inside = shapely.buffer(polygon, -CLEAR * size)
     shapely.prepare(inside)
     ends = net.nodes[net.ends]
+    min_neck *= MARGIN
     open_to &= LARGEST * template.neck_width * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) >= min_neck
-    knobbed, drawn = choose_knobs(
-        inside,
-        ends,
-        template,
-        np.zeros(len(ends), np.int64),
-        size,
-        min_neck=min_neck,
-        chances=chances,
-        bend=cap.net.bend,
-        open_to=open_to,
-        clear=max(CLEAR * size, min_neck),
-        largest=LARGEST,
-    )
+    for _ in range(TRIES):
+        knobbed, drawn = choose_knobs(
+            inside,
+            ends,
+            template,
+            np.zeros(len(ends), np.int64),
+            size,
+            min_neck=min_neck,
+            chances=chances,
+            bend=cap.net.bend,
+            open_to=open_to,
+            clearance=max(CLEAR * size, min_neck),
+            largest=LARGEST,
+        )
+        crossing = knobbed & _crossed(drawn)
+        open_to &= ~crossing
+        if not crossing.any():
+            break
     curves = Curves(rounded(drawn.reshape(-1, 2)), np.arange(len(ends) + 1) * drawn.shape[1])
     return chart_graph(
         polygon, Drawing(net, rounded(net.nodes), net.first_edge, curves, knobbed, template, 0.0)
     )
+
+
+def _crossed(curves: Floats) -> Bools:
+    """Tell which edges cross others: where edges meet at a small angle, the foot of a knob may."""
+    import shapely
+
+    lines = shapely.linestrings(curves)
+    crossed = np.zeros(len(lines), bool)
+    crossed[shapely.STRtree(lines).query(lines, predicate="crosses")[0]] = True
+    return crossed
 
 
 def _depth(pole: Pole, rim: Rim, net: Net) -> float:
@@ -125,14 +144,15 @@ def _depth(pole: Pole, rim: Rim, net: Net) -> float:
     return float(np.median(depth)) if depth else 0.0
 
 
-def _middle(polygon: Any) -> Floats:
-    """Give the middle of a cap: of its area, or a place well inside where that lies too near the border."""
+def _middle(polygon: Any, tip: Floats | None) -> Floats:
+    """Give the place of the pole: the tip, else the middle of the area, else of a disc, if well inside."""
     import shapely
 
+    inside = shapely.buffer(polygon, -INSIDE * np.sqrt(polygon.area / np.pi))
     middle = polygon.centroid
-    if not polygon.contains(middle) or polygon.exterior.distance(middle) < 0.3 * np.sqrt(
-        polygon.area / np.pi
-    ):
+    if tip is not None and inside.contains(shapely.Point(tip)):
+        return tip
+    if not inside.contains(middle):
         middle = shapely.maximum_inscribed_circle(polygon).interpolate(0)
     return np.array([middle.x, middle.y])
 

@@ -60,7 +60,7 @@ def choose_knobs(
     bend: Callable[[Floats], Floats],
     period: float = 0.0,
     open_to: Bools | None = None,
-    clear: float | None = None,
+    clearance: float | None = None,
     largest: float = LARGEST,
 ) -> tuple[Bools, Floats]:
     """Draw edges with a knob each, where one fits.
@@ -80,7 +80,7 @@ def choose_knobs(
     bend : callable, carries points (..., 2) of the chart's plane; what is drawn is tested after it
     period : float, mm, of a periodic chart, else 0
     open_to : (e,) bool, optional, edges that may have a knob; all of them if not given
-    clear : float, mm, optional, that knobs keep from other edges and knobs; a share of the size if not given
+    clearance : float, mm, optional, that knobs keep from edges and knobs; a share of the size if not given
     largest : float, times its size, that a knob may grow for its neck to be as wide as asked
 
     Returns
@@ -101,7 +101,7 @@ def choose_knobs(
     straight = np.stack([np.linspace(0, 1, len(template.points)), np.zeros(len(template.points))], 1)
     curves = bend(along(straight, ends))
     chosen = np.zeros(n, bool)
-    around = surroundings(curves, CLEAR * size if clear is None else clear, period)
+    around = surroundings(curves, CLEAR * size if clearance is None else clearance, period)
     knob = slice(template.neck[0], template.neck[1] + 1)
     open_edges, middle = _free_middles(inside, curves[:, [0, -1]])
     if open_to is not None:

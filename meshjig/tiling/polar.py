@@ -15,6 +15,8 @@ __all__ = ["PolarNet", "around_chart", "polar_net"]
 
 TIP = 0.35  # of a spoke from the pole, that no knob is on
 STUB = 1.0  # mm of a spoke before the cap's border, straight: it has to meet the ring's cut there
+NEAREST = 0.6  # of the way to the cap's border, that the border inside it is drawn near the pole at most
+SLANTED = 1.5  # times as far from the pole as the other, one end of a border's edge is where it has a knob
 WIDEST = 1.6  # radians between corners of a border around the pole: more can't be bent round well
 TURNS = 24  # tried for a row that begins where none of the outer one's spokes end
 
@@ -96,7 +98,7 @@ def polar_net(polygon: Any, pole: Floats, rim: Rim, plan: PolePlan) -> PolarNet 
     made = PolarNet()
     rows = _spread(angles, plan.counts)
     labels = [(-1 - rim.tile).tolist(), *(made.own(n) for n in plan.counts)]
-    reach = _Reach(polygon, pole, angles, rim.start)
+    reach = _Reach(polygon, pole, angles, rim.start, plan.levels[1:])
     centre = None if plan.capstone else made.node(pole)
     stone = made.own(1)[0] if plan.capstone else 0
     levels = list(plan.levels)
@@ -133,22 +135,25 @@ def around_chart(polygon: Any) -> PolarNet:
     if not shapely.is_ccw(shapely.LinearRing(loop)):
         loop = loop[::-1]
     number = [made.node(at) for at in loop[:-1]]
-    for a, b in zip(number, number[1:] + number[:1], strict=True):
+    for a, b in zip(number, [*number[1:], number[0]], strict=True):
         made.edge(a, b, tile, beyond, knob=False)
     return made
 
 
 class _Reach:
-    """How far the cap's border is from the pole, by angle."""
+    """How far the cap's border is from the pole, by angle, and how far borders inside it are."""
 
-    def __init__(self, polygon: Any, pole: Floats, angles: Floats, starts: Floats) -> None:
-        self.polygon, self.pole = polygon, pole
+    def __init__(
+        self, polygon: Any, pole: Floats, angles: Floats, starts: Floats, levels: tuple[float, ...]
+    ) -> None:
+        self.polygon, self.pole, self.levels = polygon, pole, levels
+        self.radius = float(np.sqrt(polygon.area / np.pi))
         self.known = dict(zip(angles.tolist(), np.linalg.norm(starts - pole, axis=1).tolist(), strict=True))
         low = np.array(polygon.bounds)
         self.far = float(np.hypot(*(low[2:] - low[:2])))
 
     def point(self, angle: float, level: float) -> Floats:
-        """Give the point at a share of the way from the pole to the border."""
+        """Give the point of a border at an angle; the outermost is as far from the cap's all around."""
         import shapely
 
         ahead = np.array([np.cos(angle), np.sin(angle)])
@@ -156,8 +161,14 @@ class _Reach:
             ray = shapely.LineString([self.pole, self.pole + self.far * ahead])
             hits = shapely.get_coordinates(ray.intersection(self.polygon.exterior))
             self.known[angle] = float(np.linalg.norm(hits - self.pole, axis=1).min())
-        place: Floats = self.pole + level * self.known[angle] * ahead
+        far = self.known[angle]
+        first = max(far - (1 - self.levels[0]) * self.radius, far * min(NEAREST, self.levels[0]))
+        place: Floats = self.pole + first * level / self.levels[0] * ahead
         return place
+
+    def away(self, point: Floats) -> float:
+        """Give how far from the pole a point is."""
+        return float(np.linalg.norm(point - self.pole))
 
 
 class _Border:
@@ -175,22 +186,22 @@ class _Border:
     def draw(self, outer: tuple[Floats, list[int]], inner: tuple[Floats, list[int]]) -> None:
         """Draw the border between two rows, each given by where its tiles begin, and the tiles."""
         turns = sorted(self.nodes)
-        for a, b in zip(turns, turns[1:] + [turns[0] + 2 * np.pi], strict=True):
+        for a, b in zip(turns, [*turns[1:], turns[0] + 2 * np.pi], strict=True):
             for part in range(1, n := int(np.ceil((b - a) / WIDEST))):
                 self.at((a + (b - a) * part / n) % (2 * np.pi))
         turns = sorted(self.nodes)
-        for a, b in zip(turns, turns[1:] + [turns[0] + 2 * np.pi], strict=True):
+        for a, b in zip(turns, [*turns[1:], turns[0] + 2 * np.pi], strict=True):
             middle = (a + b) / 2
-            stop = b if b in self.nodes else turns[0]
-            self.made.edge(
-                self.at(a), self.at(stop), _tile_at(*inner, middle), _tile_at(*outer, middle), True
-            )
+            start, stop = self.at(a), self.at(b if b in self.nodes else turns[0])
+            far, near = (self.reach.away(self.made.nodes[node]) for node in (start, stop))
+            knob = max(far, near) <= SLANTED * min(far, near)
+            self.made.edge(start, stop, _tile_at(*inner, middle), _tile_at(*outer, middle), knob)
 
     def circle(self) -> Circle:
         """Give the border's corners in polar coordinates."""
         turns = sorted(self.nodes)
         away = np.array([self.made.nodes[self.nodes[turn]] for turn in turns]) - self.reach.pole
-        return Circle(self.level, np.array(turns), np.linalg.norm(away, axis=1))
+        return Circle(np.array(turns), np.linalg.norm(away, axis=1))
 
 
 def _tile_at(turns: Floats, tiles: list[int], angle: float) -> int:

@@ -8,11 +8,12 @@ from meshjig.types import Floats
 
 __all__ = ["Circle", "PolarBend"]
 
+FADED = 1.3  # times as far from the pole as the outermost border, nothing moves any more
+
 
 class Circle(NamedTuple):
     """A closed border around a pole by its corners, in polar coordinates."""
 
-    level: float  # its share of the way from the pole to the cap's border
     angle: Floats  # (n,), 0 to 2 pi, growing; no two as far apart as pi
     radius: Floats  # (n,), mm
 
@@ -20,7 +21,7 @@ class Circle(NamedTuple):
 class PolarBend:
     """A map of the plane that moves points along rays from a pole: polygons around it become round.
 
-    Corners stay, and so does the plane beyond the cap; rays stay straight.
+    Corners stay, and so does the plane farther out; rays stay straight.
 
     Parameters
     ----------
@@ -43,7 +44,7 @@ class PolarBend:
             straight, around = _radii(circle, angle)
             drawn.append(straight)
             wanted.append(around)
-        rim = wanted[0] / self.circles[0].level
+        rim = wanted[0] * FADED
         after = np.where(before >= rim, before, np.nan)
         outside = (rim, rim)
         for straight, around in [*zip(drawn, wanted, strict=True), (0 * rim, 0 * rim)]:

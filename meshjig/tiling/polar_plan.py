@@ -1,7 +1,7 @@
 """How a cap around a pole is divided: wedges that meet, a capstone in the middle, rows around them."""
 
 from dataclasses import dataclass
-from itertools import product
+from itertools import pairwise, product
 from typing import Literal
 
 import numpy as np
@@ -18,7 +18,7 @@ TINY = 0.35  # of a tile's area: a cap as small as that makes no piece
 BESIDE = 0.1  # of a tile's edge: then they run on so little that its border is round, not as meshes have it
 OVER = 0.3  # of a tile's edge, that the ring's tiles at least run on into a cap: knobs have room there
 LARGEST = 1.5  # tiles that a wedge may be, what it has of the ring included
-MOST_ROWS = 6
+ASKEW = 0.02  # what rows cost whose spokes don't go on from those around them
 STEPS = 15  # widths tried for what the ring's tiles have of a cap
 
 
@@ -69,9 +69,9 @@ def plan_pole(style: PoleStyle, radius: float, depth: float, around: int) -> Pol
 def _capstone(style: PoleStyle, radius: float, around: int, meet: bool) -> PolePlan | None:
     why = ""
     if style == "wedge":
-        why = "too large for wedges" if meet else f"{around} wedges would meet"
+        why = _why(around)
     inner = radius - (OVER if radius - OVER >= LEAST_CAPSTONE / 2 else BESIDE)
-    if around >= 2 and TINY <= np.pi * inner**2 and inner <= WIDEST_CAPSTONE / 2:
+    if around >= 2 and np.pi * inner**2 >= TINY and inner <= WIDEST_CAPSTONE / 2:
         return PolePlan((1.0, inner / radius), (), True, why)
     if radius <= WIDEST_CAPSTONE / 2:
         return PolePlan((1.0,), (), True, why)
@@ -79,25 +79,34 @@ def _capstone(style: PoleStyle, radius: float, around: int, meet: bool) -> PoleP
 
 
 def _rows(radius: float, depth: float, around: int) -> PolePlan | None:
-    """Find rows whose tiles are nearest to a whole tile each, and the ring's, which run on into the cap."""
+    """Find rows whose tiles are nearest to squares of the right size, the ring's, which run on, included."""
     if around < 2:
         return None
     found: list[tuple[float, float, PolePlan]] = []
-    for width, rows in product(np.linspace(OVER, min(1.2, radius - 0.5), STEPS).tolist(), range(MOST_ROWS)):
+    widths = np.linspace(OVER, min(1.2, radius - 0.5), STEPS).tolist()
+    for width, rows, meet in product(widths, range(int(radius) + 1), range(FEWEST_MEET, MOST_MEET + 1)):
         inner = radius - width
+        middle = float(np.sqrt(meet / np.pi)) if rows else inner
+        if rows and middle > inner - 0.5:
+            continue
+        edges = np.linspace(inner, middle, rows + 1)
+        girth = np.pi * (edges[:-1] + edges[1:])
+        counts = np.maximum(np.rint(girth), meet)
+        pieces = np.array([around, *counts, meet])
         last = (2 * np.pi * radius * depth + np.pi * (radius**2 - inner**2)) / around
-        for meeting in range(FEWEST_MEET, MOST_MEET + 1):
-            middle = min(inner, float(np.sqrt(meeting / np.pi))) if rows else inner
-            edges = np.linspace(inner, middle, rows + 1)
-            rings = np.pi * (edges[:-1] ** 2 - edges[1:] ** 2)
-            if rows and rings.min() <= 0:
-                continue
-            counts = [max(meeting, round(float(area))) for area in rings]
-            pieces = np.array([around, *counts, meeting])
-            size = np.array([last, *(rings / pieces[1:-1]), np.pi * middle**2 / meeting])
-            cost = float((pieces * np.log(size) ** 2).sum() / pieces.sum())
-            cost += 0.02 * sum(a % b > 0 for a, b in zip(pieces[:-1], pieces[1:], strict=True))
-            levels = (1.0, *(edges / radius).tolist())
-            why = f"{around} wedges would meet" if around > MOST_MEET else "too large for wedges"
-            found.append((cost, width, PolePlan(levels, (*counts, meeting), False, why)))
+        rings = np.pi * (edges[:-1] ** 2 - edges[1:] ** 2) / counts
+        size = np.array([last, *rings, np.pi * middle**2 / meet])
+        tall = np.array([1.0, *(np.diff(-edges) * counts / girth), 1.0])
+        cost = float((pieces * (np.log(size) ** 2 + np.log(tall) ** 2)).sum() / pieces.sum())
+        counted = tuple(pieces.astype(int).tolist())
+        cost += ASKEW * sum(a % b > 0 for a, b in pairwise(counted))
+        levels = (1.0, *(edges / radius).tolist())
+        found.append((cost, width, PolePlan(levels, counted[1:], False, _why(around))))
     return min(found, key=lambda one: one[:2])[2]
+
+
+def _why(around: int) -> str:
+    """Say why a ring's tiles don't run on to the pole."""
+    if around < 2:
+        return "one tile of the ring goes all around"
+    return f"{around} wedges would meet" if around > MOST_MEET else "wedges would be too large"

@@ -76,8 +76,17 @@ def tile_charts(
     knobs : Knobs
         None where edges interlock by their shape.
     """
-    given = {"unit": unit, "placings": placings, "min_neck": min_neck, "seed": seed, "turns": turns}
-    tiling = tile_surface(atlas, size, random=random, random_style=random_style, **given)
+    tiling = tile_surface(
+        atlas,
+        size,
+        unit=unit,
+        placings=placings,
+        min_neck=min_neck,
+        random=random,
+        random_style=random_style,
+        seed=seed,
+        turns=turns,
+    )
     return tiling.outlines, tiling.knobs
 
 
@@ -121,7 +130,8 @@ def tile_surface(
     order = sorted(range(atlas.n_charts), key=lambda chart: (chart in caps, chart))
     parts: dict[int, tuple[Outlines, Knobs]] = {}
     nets: dict[int, Net] = {}
-    n_tiles, n_edges = {}, [0]
+    n_tiles: dict[int, int] = {}
+    n_edges = [0]
     capstones: list[int] = []
     facts: list[dict[str, Any]] = []
     for chart in order:
