@@ -9,7 +9,8 @@ from meshjig.tiling.curves import POINT_DISTANCE, Curves
 from meshjig.tiling.graph import Drawing, chart_graph
 from meshjig.tiling.knobs import CLEAR, Chances, choose_knobs
 from meshjig.tiling.net import Net, rounded
-from meshjig.tiling.polar import PolarNet, around_chart, polar_net
+from meshjig.tiling.polar import polar_net
+from meshjig.tiling.polar_graph import PolarNet, around_chart
 from meshjig.tiling.polar_plan import PolePlan, PoleStyle, plan_pole
 from meshjig.tiling.poles import Pole, Rim, ring_rim
 from meshjig.tiling.template import Template
@@ -22,7 +23,7 @@ SHORTEST_RUN = 0.2  # of a tile's edge: a tile that ends on a cap with less make
 LARGEST = 2.0  # times its size that a knob may grow: edges around a pole are short
 MARGIN = 1.15  # times the least neck in the plane: on the surface it may come out narrower
 INSIDE = 0.25  # of a cap's radius, that its pole is at least from its border
-TRIES = 4  # each without the knobs that crossed other edges
+TRIES = 6  # each without the knobs that crossed other edges, or had to be too small
 POINTS = 40  # of a template, a part
 
 
@@ -32,6 +33,7 @@ class Cap(NamedTuple):
     net: PolarNet
     plan: PolePlan
     meeting: int  # wedges
+    depth: float  # mm, of the ring's tiles beside the cap
 
     @property
     def is_one_piece(self) -> bool:
@@ -58,17 +60,18 @@ def close_pole(
     """
     rim = ring_rim(pole, ring[1], SHORTEST_RUN * size)
     radius = float(np.sqrt(polygon.area / np.pi)) / size
-    plan = plan_pole(style, radius, _depth(pole, rim, ring[0]) / size, len(rim.tile))
+    depth = _depth(pole, rim, ring[0])
+    plan = plan_pole(style, radius, depth / size, len(rim.tile))
     if plan is None:
         return None
     if plan.capstone and len(plan.levels) == 1:
-        return Cap(around_chart(polygon), plan, 0)
+        return Cap(around_chart(polygon), plan, 0, depth)
     net = polar_net(polygon, _middle(polygon, pole.tip), rim, plan)
     if net is None:
         plan = PolePlan((1.0,), (), True, "the end is not round enough for wedges")
         whole = plan_pole("capstone", radius, 0.0, 0)
-        return None if whole is None else Cap(around_chart(polygon), plan, 0)
-    return Cap(net, plan, 0 if plan.capstone else plan.meeting or len(rim.tile))
+        return None if whole is None else Cap(around_chart(polygon), plan, 0, depth)
+    return Cap(net, plan, 0 if plan.capstone else plan.meeting or len(rim.tile), depth)
 
 
 def drawn_cap(
@@ -95,11 +98,11 @@ def drawn_cap(
 
     net, open_to = cap.net.net(ring_label)
     template = _template(unit, net)
-    inside = shapely.buffer(polygon, -CLEAR * size)
-    shapely.prepare(inside)
     ends = net.nodes[net.ends]
-    min_neck *= MARGIN
+    least, min_neck = min_neck, min_neck * MARGIN
     open_to &= LARGEST * template.neck_width * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) >= min_neck
+    inside = shapely.buffer(polygon, -max(CLEAR * size, min_neck - cap.depth))
+    shapely.prepare(inside)
     for _ in range(TRIES):
         knobbed, drawn = choose_knobs(
             inside,
@@ -114,9 +117,10 @@ def drawn_cap(
             clearance=max(CLEAR * size, min_neck),
             largest=LARGEST,
         )
-        crossing = knobbed & _crossed(drawn)
-        open_to &= ~crossing
-        if not crossing.any():
+        neck = np.linalg.norm(drawn[:, template.neck[0]] - drawn[:, template.neck[1]], axis=1)
+        bad = knobbed & (_crossed(drawn) | (neck < least))
+        open_to &= ~bad
+        if not bad.any():
             break
     curves = Curves(rounded(drawn.reshape(-1, 2)), np.arange(len(ends) + 1) * drawn.shape[1])
     return chart_graph(
@@ -137,10 +141,11 @@ def _crossed(curves: Floats) -> Bools:
 def _depth(pole: Pole, rim: Rim, net: Net) -> float:
     """Give how far the ring's tiles that end on a cap reach away from it, mm: half of them farther."""
     level = float(pole.there[..., 1].mean())
+    ahead = np.sign(net.nodes[:, 1].mean() - level)
     depth = []
     for tile in np.unique(rim.tile).tolist():
         mine: Bools = (net.left == tile) | (net.right == tile)
-        depth.append(np.abs(net.nodes[net.ends[mine], 1] - level).max())
+        depth.append((ahead * (net.nodes[net.ends[mine], 1] - level)).max())
     return float(np.median(depth)) if depth else 0.0
 
 

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 
 from meshjig.tiling.graph import BESIDE
-from meshjig.tiling.net import Net
 from meshjig.tiling.polar_bend import Circle, PolarBend
+from meshjig.tiling.polar_graph import PolarNet
 from meshjig.tiling.polar_plan import PolePlan
 from meshjig.tiling.poles import Rim
-from meshjig.types import Bools, Floats, Ints
+from meshjig.types import Floats
 
-__all__ = ["PolarNet", "around_chart", "polar_net"]
+__all__ = ["polar_net"]
 
 TIP = 0.35  # of a spoke from the pole, that no knob is on
 STUB = 1.0  # mm of a spoke before the cap's border, straight: it has to meet the ring's cut there
@@ -19,59 +19,6 @@ NEAREST = 0.6  # of the way to the cap's border, that the border inside it is dr
 SLANTED = 1.5  # times as far from the pole as the other, one end of a border's edge is where it has a knob
 WIDEST = 1.6  # radians between corners of a border around the pole: more can't be bent round well
 TURNS = 24  # tried for a row that begins where none of the outer one's spokes end
-
-
-class PolarNet:
-    """Nodes and edges, made one by one.
-
-    Labels of tiles that are the cap's own count from 0; a ring's tile k is -1 - k.
-    """
-
-    def __init__(self) -> None:
-        self.nodes: list[Floats] = []
-        self.ends: list[tuple[int, int]] = []
-        self.sides: list[tuple[int, int]] = []
-        self.may_have_knob: list[bool] = []
-        self.n_own = 0
-        self.bend = PolarBend(np.zeros(2), [])
-
-    def node(self, at: Floats) -> int:
-        """Add a node."""
-        self.nodes.append(at)
-        return len(self.nodes) - 1
-
-    def edge(self, start: int, stop: int, left: int, right: int, knob: bool) -> None:
-        """Add an edge."""
-        self.ends.append((start, stop))
-        self.sides.append((left, right))
-        self.may_have_knob.append(knob)
-
-    def own(self, n: int) -> list[int]:
-        """Give n new tiles."""
-        self.n_own += n
-        return list(range(self.n_own - n, self.n_own))
-
-    def net(self, ring_label: int) -> tuple[Net, Bools]:
-        """Give the net, the ring's labels counted from a number, and which edges may have a knob."""
-        sides = np.array(self.sides, np.int64)
-        sides = np.where(sides < 0, ring_label - 1 - sides, sides)
-        n, none = len(self.ends), np.zeros((len(self.ends), 2), np.int64)
-        every: Ints = np.arange(n)
-        return (
-            Net(
-                nodes=np.array(self.nodes),
-                first_node=np.arange(len(self.nodes)),
-                ends=np.array(self.ends, np.int64),
-                left=sides[:, 0],
-                right=sides[:, 1],
-                kind=none[:, 0],
-                copy=none,
-                first_edge=every,
-                turns=none[:, 0],
-                n_tiles=self.n_own,
-            ),
-            np.array(self.may_have_knob),
-        )
 
 
 def polar_net(polygon: Any, pole: Floats, rim: Rim, plan: PolePlan) -> PolarNet | None:
@@ -101,42 +48,22 @@ def polar_net(polygon: Any, pole: Floats, rim: Rim, plan: PolePlan) -> PolarNet 
     reach = _Reach(polygon, pole, angles, rim.start, plan.levels[1:])
     centre = None if plan.capstone else made.node(pole)
     stone = made.own(1)[0] if plan.capstone else 0
-    levels = list(plan.levels)
-    borders = [_Border(made, reach, level) for level in levels[1:]]
+    borders = [_Border(made, reach, level) for level in plan.levels[1:]]
     for k, (turns, tiles) in enumerate(zip(rows, labels, strict=True)):
-        inner = borders[k] if k < len(borders) else None
         for i, angle in enumerate(turns.tolist()):
-            left, right = tiles[i], tiles[i - 1]
-            if inner is not None:
-                start, tip = inner.at(angle), False
-            else:
-                if centre is None:
-                    continue
-                start, tip = centre, True
+            inner = borders[k].at(angle) if k < len(borders) else centre
+            sides = tiles[i], tiles[i - 1]
+            if inner is None:
+                continue
             if k == 0:
-                _spoke_to_border(made, start, rim.start[i], tip, left, right)
+                _spoke_to_border(made, inner, rim.start[i], sides, inner == centre)
             else:
-                _spoke(made, start, borders[k - 1].at(angle), tip, left, right)
+                _spoke(made, inner, borders[k - 1].at(angle), sides, inner == centre)
     for k, border in enumerate(borders):
         last = k == len(borders) - 1 and plan.capstone
         within = (np.zeros(1), [stone]) if last else (rows[k + 1], labels[k + 1])
         border.draw((rows[k], labels[k]), within)
     made.bend = PolarBend(pole, [border.circle() for border in borders])
-    return made
-
-
-def around_chart(polygon: Any) -> PolarNet:
-    """Draw a loop around a chart that is one tile: nothing is cut, but all of it has a label."""
-    import shapely
-
-    loop = shapely.get_coordinates(shapely.buffer(polygon, 0.6 * BESIDE).simplify(0.1 * BESIDE).exterior)
-    made = PolarNet()
-    tile, beyond = made.own(2)
-    if not shapely.is_ccw(shapely.LinearRing(loop)):
-        loop = loop[::-1]
-    number = [made.node(at) for at in loop[:-1]]
-    for a, b in zip(number, [*number[1:], number[0]], strict=True):
-        made.edge(a, b, tile, beyond, knob=False)
     return made
 
 
@@ -187,8 +114,9 @@ class _Border:
         """Draw the border between two rows, each given by where its tiles begin, and the tiles."""
         turns = sorted(self.nodes)
         for a, b in zip(turns, [*turns[1:], turns[0] + 2 * np.pi], strict=True):
-            for part in range(1, n := int(np.ceil((b - a) / WIDEST))):
-                self.at((a + (b - a) * part / n) % (2 * np.pi))
+            parts = int(np.ceil((b - a) / WIDEST))
+            for part in range(1, parts):
+                self.at((a + (b - a) * part / parts) % (2 * np.pi))
         turns = sorted(self.nodes)
         for a, b in zip(turns, [*turns[1:], turns[0] + 2 * np.pi], strict=True):
             middle = (a + b) / 2
@@ -238,19 +166,21 @@ def _spread(outer: Floats, counts: tuple[int, ...]) -> list[Floats]:
     return rows
 
 
-def _spoke(made: PolarNet, start: int, stop: int, tip: bool, left: int, right: int) -> None:
-    if tip:
+def _spoke(made: PolarNet, start: int, stop: int, sides: tuple[int, int], at_pole: bool) -> None:
+    if at_pole:
         a, b = made.nodes[start], made.nodes[stop]
-        between = made.node(a + TIP * (b - a))
-        made.edge(start, between, left, right, knob=False)
-        start = between
-    made.edge(start, stop, left, right, knob=True)
+        tip = made.node(a + TIP * (b - a))
+        made.edge(start, tip, *sides, knob=False)
+        start = tip
+    made.edge(start, stop, *sides, knob=True)
 
 
-def _spoke_to_border(made: PolarNet, start: int, border: Floats, tip: bool, left: int, right: int) -> None:
-    """Draw a spoke that crosses the cap's border where it has to, and a little beyond."""
+def _spoke_to_border(
+    made: PolarNet, start: int, border: Floats, sides: tuple[int, int], at_pole: bool
+) -> None:
+    """Draw a spoke that crosses the cap's border where it has to, and goes on a little beyond."""
     away = border - made.nodes[start]
     length = float(np.linalg.norm(away))
     stub = made.node(border - away * min(STUB / length, 0.4))
-    _spoke(made, start, stub, tip, left, right)
-    made.edge(stub, made.node(border + away / length * 0.9 * BESIDE), left, right, knob=False)
+    _spoke(made, start, stub, sides, at_pole)
+    made.edge(stub, made.node(border + away / length * 0.9 * BESIDE), *sides, knob=False)

@@ -131,6 +131,7 @@ def tile_surface(
     parts: dict[int, tuple[Outlines, Knobs]] = {}
     nets: dict[int, Net] = {}
     n_tiles: dict[int, int] = {}
+    first: dict[int, int] = {}  # label of each chart
     n_edges = [0]
     capstones: list[int] = []
     facts: list[dict[str, Any]] = []
@@ -138,17 +139,17 @@ def tile_surface(
         polygon, placing = polygons[chart], placings[chart]
         again = None if turns is None else turns[sum(n_edges) :]
         chances = Chances(seed, len(n_edges), random, again)
-        first = sum(n_tiles.values())
+        first[chart] = sum(n_tiles.values())
         if pole and chart in caps:
             ring = caps[chart].ring
             cap = close_pole(caps[chart], polygon, (nets[ring], parts[ring][0]), size, pole)
             facts.append(_closed(caps[chart], cap))
             if cap is not None:
-                labels_before = sum(n for c, n in n_tiles.items() if order.index(c) < order.index(ring))
-                parts[chart] = drawn_cap(polygon, cap, labels_before - first, unit, size, min_neck, chances)
+                ring_label = first[ring] - first[chart]
+                parts[chart] = drawn_cap(polygon, cap, ring_label, unit, size, min_neck, chances)
                 n_tiles[chart] = cap.net.n_own
                 n_edges.append(len(cap.net.ends))
-                capstones += [first] if cap.is_one_piece else []
+                capstones += [first[chart]] if cap.is_one_piece else []
                 continue
         bounds = np.array(polygon.bounds)
         net = lay_net(unit, placing, bounds, size / 2 + BESIDE)
@@ -163,12 +164,10 @@ def tile_surface(
 
 def _closed(pole: Pole, cap: Cap | None) -> dict[str, Any]:
     """Say how a pole was closed."""
-    if cap is None:
-        return {"chart": pole.cap, "ring": pole.ring, "closed_by": "tiles", "meeting": 0, "why": "too large"}
-    by = "capstone" if cap.plan.capstone else "wedge"
-    return {
-        "chart": pole.cap, "ring": pole.ring, "closed_by": by, "meeting": cap.meeting, "why": cap.plan.why
-    }  # fmt: skip
+    by, meeting, why = "tiles", 0, "the cap is better tiled like any other chart"
+    if cap is not None:
+        by, meeting, why = "capstone" if cap.plan.capstone else "wedge", cap.meeting, cap.plan.why
+    return {"chart": pole.cap, "ring": pole.ring, "closed_by": by, "meeting": meeting, "why": why}
 
 
 def _draw(

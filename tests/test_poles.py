@@ -1,0 +1,64 @@
+"""The option pole from the command line, and from the library, to the finished pieces."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+
+import meshjig
+from tests.charts.tubes import vase
+
+ASKED = {"size": 110, "pieces": 24, "charts": "periodic"}
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    path = tmp_path_factory.mktemp("meshes") / "vase.ply"
+    trimesh.Trimesh(*vase(), process=False).export(path)
+    return path
+
+
+def run(*words):
+    words = [sys.executable, "-m", "meshjig", "make", *map(str, words)]
+    return subprocess.run(words, capture_output=True, encoding="utf-8", check=False)
+
+
+def reach_the_pole(meshes):
+    """Count the pieces that come to the middle of the foot."""
+    feet = [np.hypot(V[:, 0], V[:, 2])[V[:, 1] < 0.05] for V in (mesh.vertices for mesh in meshes)]
+    return sum(len(foot) > 0 and foot.min() < 1.0 for foot in feet)
+
+
+def test_wedges_meet_at_the_foot_of_a_vase(mesh, tmp_path):
+    words = [word for name, value in ASKED.items() for word in (f"--{name}", value)]
+    said = run(mesh, "-o", tmp_path / "out", *words, "--pole", "wedge", "--format", "stl")
+    assert said.returncode == 0, said.stderr
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["options"]["pole"] == "wedge"
+    (pole,) = report["stitching"]["poles"]
+    assert pole["closed_by"] == "wedge"
+    pieces = [trimesh.load(path) for path in sorted((tmp_path / "out" / "pieces").iterdir())]
+    assert all(piece.is_watertight for piece in pieces)
+    assert reach_the_pole(pieces) == pole["meeting"] > 2
+
+
+def test_if_not_told_otherwise_a_capstone_does(mesh):
+    puzzle = meshjig.make_puzzle(mesh, **ASKED)
+    assert puzzle.report["ok"]
+    (pole,) = puzzle.report["stitching"]["poles"]
+    assert pole["closed_by"] == "capstone"
+    around = [piece.mesh for piece in puzzle.pieces]
+    assert reach_the_pole(around) <= 1
+    low = [piece for piece in around if piece.vertices[:, 1].max() < 3]
+    assert len(low) == 1  # the capstone lies flat
+    assert np.abs(low[0].center_mass[[0, 2]]).max() < 1
+
+
+def test_another_way_is_refused(mesh, tmp_path):
+    said = run(mesh, "-o", tmp_path / "out", "--pole", "dome")
+    assert said.returncode == 2
+    assert "pole" in said.stderr
+    assert "'wedge' or 'capstone'" in said.stderr
