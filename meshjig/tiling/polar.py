@@ -18,6 +18,7 @@ STUB = 1.0  # mm of a spoke before the cap's border, straight: it has to meet th
 NEAREST = 0.6  # of the way to the cap's border, that the border inside it is drawn near the pole at most
 SLANTED = 1.5  # times as far from the pole as the other, one end of a border's edge is where it has a knob
 WIDEST = 1.6  # radians between corners of a border around the pole: more can't be bent round well
+UNEVEN = 1.5  # times as large as the smallest, the largest sector is where spokes go on
 TURNS = 24  # tried for a row that begins where none of the outer one's spokes end
 
 
@@ -43,7 +44,7 @@ def polar_net(polygon: Any, pole: Floats, rim: Rim, plan: PolePlan) -> PolarNet 
     if not round_once or not shapely.covers(polygon, spokes).all():
         return None
     made = PolarNet()
-    rows = _spread(angles, plan.counts)
+    rows = _spread(angles, plan.counts, polygon, pole)
     labels = [(-1 - rim.tile).tolist(), *(made.own(n) for n in plan.counts)]
     reach = _Reach(polygon, pole, angles, rim.start, plan.levels[1:])
     centre = None if plan.capstone else made.node(pole)
@@ -152,18 +153,39 @@ def _towards(rim: Rim, pole: Floats) -> Floats:
     return ends
 
 
-def _spread(outer: Floats, counts: tuple[int, ...]) -> list[Floats]:
+def _spread(outer: Floats, counts: tuple[int, ...], polygon: Any, pole: Floats) -> list[Floats]:
     """Give where the tiles of each row begin, angles, from the outermost row inward."""
+    share, angle = _shares(polygon, pole)
     rows = [outer]
     for n in counts:
         before = rows[-1]
         if len(before) % n == 0:  # every second spoke goes on, or every third ...
-            rows.append(before[:: len(before) // n])
-            continue
-        turns = 2 * np.pi / n * (np.arange(n)[None] + np.arange(TURNS)[:, None] / TURNS)
-        apart = np.abs((turns[:, :, None] - before + np.pi) % (2 * np.pi) - np.pi).min((1, 2))
-        rows.append(turns[int(apart.argmax())] % (2 * np.pi))
+            turns = before[:: len(before) // n]
+            area = np.diff(np.sort(np.interp(turns, angle, share)), append=np.nan)
+            area[-1] = 1 - area[:-1].sum()
+            if area.max() <= UNEVEN * area.min():
+                rows.append(turns)
+                continue
+        begin = (np.arange(n)[None] + np.arange(TURNS)[:, None] / TURNS) / n
+        tried = np.interp(begin, share, angle)
+        apart = np.abs((tried[:, :, None] - before + np.pi) % (2 * np.pi) - np.pi).min((1, 2))
+        rows.append(tried[int(apart.argmax())] % (2 * np.pi))
     return rows
+
+
+def _shares(polygon: Any, pole: Floats) -> tuple[Floats, Floats]:
+    """Give the share of a cap's area before angles seen from its pole, and these, 0 to 2 pi."""
+    import shapely
+
+    step = 0.02 * float(np.sqrt(polygon.area))
+    xy = shapely.get_coordinates(shapely.segmentize(polygon.exterior, step)) - pole
+    a, b = xy[:-1], xy[1:]
+    area = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    middle = _angles(a + b)
+    order = np.argsort(middle, kind="stable")
+    before = np.cumsum(area[order]) - area[order] / 2
+    share = np.concatenate([[0.0], before / area.sum(), [1.0]])
+    return share, np.concatenate([[0.0], middle[order], [2 * np.pi]])
 
 
 def _spoke(made: PolarNet, start: int, stop: int, sides: tuple[int, int], at_pole: bool) -> None:
