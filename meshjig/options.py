@@ -69,6 +69,9 @@ class Options(BaseModel):
     charts: Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"] = Field(
         "auto", description="how charts are made"
     )
+    pole: Literal["wedge", "capstone"] = Field(
+        "capstone", description="how tiles close a ring's end: wedges that meet there, or one piece over it"
+    )
     fill_holes: FiniteFloat | None = Field(
         None, ge=0, description="close holes up to this diameter, mm; half a tile if not given, 0 for none"
     )

@@ -54,6 +54,7 @@ def stitch(
     tile_area: float,
     least_border: float = 0.0,
     smallest: float = SMALLEST_PIECE,
+    alone: Ints | None = None,
 ) -> Stitching:
     """Join regions over seams, then give tiny pieces to a neighbour.
 
@@ -68,6 +69,7 @@ def stitch(
     tile_area : float, area of a whole tile, mm2
     least_border : float, mm; over less of a seam than that a join would be too weak to be made
     smallest : float, share of the mean area under which a piece is too small
+    alone : (k,) int64, regions that join over no seam; tiny pieces join others where they can
 
     Returns
     -------
@@ -80,12 +82,20 @@ def stitch(
     Elber and Kim, "Synthesis of 3D Jigsaw Puzzles over Freeform 2-Manifolds", section 3.2.2.
     """
     groups = _Groups(graph)
-    joins = _join_over_seams(graph, groups, share, LARGEST_JOIN * tile_area, least_border)
-    merged, left = _merge_tiny(groups, smallest)
+    joins = _join_over_seams(_without(graph, alone), groups, share, LARGEST_JOIN * tile_area, least_border)
+    merged, left = _merge_tiny(groups, smallest, set() if alone is None else set(alone.tolist()))
     roots = np.array([groups.root(r) for r in range(len(graph.area))], dtype=np.int64)
     piece = np.unique(roots, return_inverse=True)[1].astype(np.int64)
     facts: dict[str, Any] = {"stitched": joins, "tiny_merged": merged, "tiny_left": left}
     return Stitching(piece, facts)
+
+
+def _without(graph: RegionGraph, regions: Ints | None) -> RegionGraph:
+    """Leave out the borders of some regions."""
+    if regions is None or not len(regions):
+        return graph
+    kept = ~np.isin(graph.pairs, regions).any(1)
+    return RegionGraph(graph.area, graph.pairs[kept], graph.length[kept], graph.seam[kept])
 
 
 class _Groups:
@@ -143,7 +153,7 @@ def _join_over_seams(
     return joins
 
 
-def _merge_tiny(groups: _Groups, smallest: float) -> tuple[int, int]:
+def _merge_tiny(groups: _Groups, smallest: float, alone: set[int]) -> tuple[int, int]:
     roots = {groups.root(r) for r in range(len(groups.parent))}
     queue = [(groups.area[r], r) for r in roots]
     heapq.heapify(queue)
@@ -157,7 +167,8 @@ def _merge_tiny(groups: _Groups, smallest: float) -> tuple[int, int]:
         if not groups.borders[piece]:
             left += 1
             continue
-        neighbour = max(groups.borders[piece].items(), key=lambda item: (item[1], -item[0]))[0]
+        others = [item for item in groups.borders[piece].items() if item[0] not in alone]
+        neighbour = max(others or groups.borders[piece].items(), key=lambda item: (item[1], -item[0]))[0]
         whole = groups.join(piece, neighbour)
         heapq.heappush(queue, (groups.area[whole], whole))
         n, merged = n - 1, merged + 1

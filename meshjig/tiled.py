@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from meshjig.options import Options
 from meshjig.progress import Stages
 from meshjig.sizing import TileChoice, choose_tiles
 from meshjig.stitch import region_graph, stitch
-from meshjig.tiling import Unit, tile_charts
+from meshjig.tiling import Unit, tile_surface
 from meshjig.tiling.families.polyomino import SQUARES
 from meshjig.tiling.registry import get_family
 from meshjig.types import Atlas, Ints
@@ -72,9 +73,10 @@ def _cut(
     turns: Ints | None = None,
 ) -> Layout:
     with stages("tiling"):
-        outlines, knobs = tile_charts(
+        tiling = tile_surface(
             atlas,
             choice.size,
+            pole=options.pole,
             unit=unit,
             placings=choice.placings,
             min_neck=least_border,
@@ -84,11 +86,14 @@ def _cut(
             turns=turns,
         )
     with stages("cut"):
-        cut = overlay(atlas, outlines)
+        cut = overlay(atlas, tiling.outlines)
     with stages("stitch"):
         graph = region_graph(cut)
-        stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece)
-    return Layout(atlas, outlines, knobs, cut, stitching)
+        capstones = np.unique(cut.region[np.isin(cut.label, tiling.capstones)])
+        stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece, capstones)
+    if tiling.poles:
+        stitching = replace(stitching, facts={**stitching.facts, "poles": tiling.poles})
+    return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)
 
 
 def _without_clashes(

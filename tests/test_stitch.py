@@ -86,3 +86,10 @@ def test_a_join_too_short_to_hold_is_not_made():
     borders = [(0, 1, 1.0, True), (1, 2, 20, False)]
     assert stitch(graph([60, 60, 60], borders), 0.3, 100).n_pieces == 2
     assert stitch(graph([60, 60, 60], borders), 0.3, 100, least_border=2.0).n_pieces == 3
+
+
+def test_what_stays_alone_joins_over_no_seam_nor_takes_tiny_pieces():
+    borders = [(0, 1, 20, True), (1, 2, 9, False), (0, 2, 1, False), (1, 3, 9, False), (0, 3, 11, False)]
+    lonely = graph([50, 50, 100, 2], borders)
+    assert groups(stitch(lonely, 0.3, 100)) == [[0, 1, 3], [2]]
+    assert groups(stitch(lonely, 0.3, 100, alone=np.array([0]))) == [[0], [1, 3], [2]]

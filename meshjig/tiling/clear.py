@@ -16,6 +16,7 @@ class Surroundings:
     edge: Ints  # (p,)
     other: Ints  # (p,)
     moved: Floats  # (p, 2), mm, how far the other is moved to lie beside the edge
+    bulge: Floats  # (e,), mm, how far each edge is bent off the straight line between its ends
     clearance: float  # mm, that there must be between a knob and anything else
 
     def hit(self, knobs: Floats, of_edge: Ints, drawn: Floats, knobbed: Bools, neck: slice) -> Bools:
@@ -43,7 +44,7 @@ class Surroundings:
         other, moved = self.other[tried], self.moved[tried]
         from_edge = _distance(new_centre[mine], drawn[other][:, [0, -1]] + moved[:, None])
         apart = np.linalg.norm(new_centre[mine] - centre[other] - moved, axis=1) - radius[other]
-        near = np.minimum(from_edge, apart) < new_radius[mine] + self.clearance
+        near = np.minimum(from_edge - self.bulge[other], apart) < new_radius[mine] + self.clearance
         hit = np.zeros(len(knobs), bool)
         against = drawn[other[near]] + moved[near, None]
         hit[mine[near][self._near(knobs[mine[near]][:, neck], against)]] = True
@@ -83,7 +84,9 @@ def surroundings(drawn: Floats, clearance: float, period: float) -> Surroundings
         edge.append(near["i"].astype(np.int64))
         other.append(near["j"].astype(np.int64))
         moved.append(np.tile(by, (len(near), 1)))
-    return Surroundings(np.concatenate(edge), np.concatenate(other), np.concatenate(moved), clearance)
+    ends = np.repeat(drawn[:, None, [0, -1]], drawn.shape[1], axis=1).reshape(-1, 2, 2)
+    bulge = _distance(drawn.reshape(-1, 2), ends).reshape(len(drawn), -1).max(1, initial=0.0)
+    return Surroundings(np.concatenate(edge), np.concatenate(other), np.concatenate(moved), bulge, clearance)
 
 
 def _discs(knobs: Floats) -> tuple[Floats, Floats]:

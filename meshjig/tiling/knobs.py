@@ -17,7 +17,7 @@ JITTER = 0.06  # of an edge, that a knob to either side is off its place by chan
 SMALLER, LARGER = 0.85, 1.1  # how much knobs vary in size by chance, when all is random
 LEAN = 0.3  # of its height, that a knob's top is moved sideways then
 FARTHEST = 0.2  # of an edge, that a knob is moved from the middle for its own good
-LARGEST = 1.2  # times its size, that a knob may grow for its neck to be as wide as asked
+LARGEST = 1.2  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
 LEAST_HEAD = 1.3  # widths of the neck, after bending
 # the scale before and this one; place, None for the middle of what lies inside the chart; side
 _SCALES = ((np.inf, 1.0), (1.0, 0.85), (0.85, 0.7))
@@ -59,6 +59,9 @@ def choose_knobs(
     chances: Chances,
     bend: Callable[[Floats], Floats],
     period: float = 0.0,
+    open_to: Bools | None = None,
+    clearance: float | None = None,
+    largest: float = LARGEST,
 ) -> tuple[Bools, Floats]:
     """Draw edges with a knob each, where one fits.
 
@@ -76,6 +79,9 @@ def choose_knobs(
     chances : Chances
     bend : callable, carries points (..., 2) of the chart's plane; what is drawn is tested after it
     period : float, mm, of a periodic chart, else 0
+    open_to : (e,) bool, optional, edges that may have a knob; all of them if not given
+    clearance : float, mm, optional, that knobs keep from edges and knobs; a share of the size if not given
+    largest : float, times its size, that a knob may grow for its neck to be as wide as asked
 
     Returns
     -------
@@ -90,14 +96,16 @@ def choose_knobs(
     jitter = jitter * (sides == 0)
     need = min_neck / (template.neck_width * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
     least = np.minimum(need, 1.0)
-    full = np.maximum(vary, np.where(need <= LARGEST, need, least))
+    full = np.maximum(vary, np.where(need <= largest, need, least))
 
     straight = np.stack([np.linspace(0, 1, len(template.points)), np.zeros(len(template.points))], 1)
     curves = bend(along(straight, ends))
     chosen = np.zeros(n, bool)
-    around = surroundings(curves, CLEAR * size, period)
+    around = surroundings(curves, CLEAR * size if clearance is None else clearance, period)
     knob = slice(template.neck[0], template.neck[1] + 1)
     open_edges, middle = _free_middles(inside, curves[:, [0, -1]])
+    if open_to is not None:
+        open_edges = open_edges & open_to
     for before, factor, place, side in _TRIES:
         todo = np.flatnonzero(~chosen & open_edges & (before * full > least))
         if not len(todo):

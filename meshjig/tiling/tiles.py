@@ -1,10 +1,11 @@
 """Tile the charts of an atlas with pieces that interlock."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.tiling.caps import Cap, close_pole, drawn_cap
 from meshjig.tiling.classic import classic
 from meshjig.tiling.curves import POINT_DISTANCE, Curves, shaped_curves
 from meshjig.tiling.domain import chart_periods, chart_polygons, unrolled
@@ -13,15 +14,26 @@ from meshjig.tiling.graph import BESIDE, Drawing, chart_graph, joined
 from meshjig.tiling.knobs import CLEAR, Chances, choose_knobs
 from meshjig.tiling.net import Net, lay_net, rounded
 from meshjig.tiling.placing import Placing, placings_in_the_middle
+from meshjig.tiling.polar_plan import PoleStyle
+from meshjig.tiling.poles import Pole, find_poles
 from meshjig.tiling.template import Template
 from meshjig.tiling.unit import Unit
 from meshjig.tiling.warp import WarpStyle, random_warp
 from meshjig.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
-__all__ = ["tile_charts"]
+__all__ = ["Tiling", "tile_charts", "tile_surface"]
 
 PARTS = 5  # cubics or sides that a knob's edge is drawn with
 LONGER = 1.7  # times as long as a straight edge is one with a knob
+
+
+class Tiling(NamedTuple):
+    """What is to be cut of an atlas."""
+
+    outlines: Outlines
+    knobs: Knobs
+    capstones: Ints  # (k,), labels of charts that are one tile and stay it
+    poles: list[dict[str, Any]]  # how each was closed
 
 
 def tile_charts(
@@ -64,24 +76,98 @@ def tile_charts(
     knobs : Knobs
         None where edges interlock by their shape.
     """
+    tiling = tile_surface(
+        atlas,
+        size,
+        unit=unit,
+        placings=placings,
+        min_neck=min_neck,
+        random=random,
+        random_style=random_style,
+        seed=seed,
+        turns=turns,
+    )
+    return tiling.outlines, tiling.knobs
+
+
+def tile_surface(
+    atlas: Atlas,
+    size: float,
+    *,
+    pole: PoleStyle | None = None,
+    unit: Unit | None = None,
+    placings: Sequence[Placing] | None = None,
+    min_neck: float = 0.0,
+    random: float = 0.0,
+    random_style: WarpStyle = "bspline",
+    seed: int = 0,
+    turns: Ints | None = None,
+) -> Tiling:
+    """Cover every chart with tiles, and close the poles beyond rings.
+
+    A cap, which is a chart that lies against one ring chart all around, is divided by wedges, on
+    which the ring's last tiles run on to the pole, or holds a capstone; see `plan_pole`. No knob is
+    over a pole or near it.
+
+    Parameters
+    ----------
+    pole : "wedge" or "capstone", optional
+        If not given, caps are tiled as other charts are.
+    atlas, size, unit, placings, min_neck, random, random_style, seed, turns
+        As for `tile_charts`. Edges are counted caps last.
+
+    Returns
+    -------
+    Tiling
+    """
     unit = unit or squares(classic)
     polygons, periods = chart_polygons(atlas), chart_periods(atlas)
     if placings is None:
         placings = placings_in_the_middle(unit, polygons, periods, size)
     rng = np.random.default_rng(seed)
     template = _template(unit, size)
-    parts, n_tiles, n_edges = [], [], [0]
-    for polygon, placing in zip(polygons, placings, strict=True):
-        net = lay_net(unit, placing, np.array(polygon.bounds), size / 2 + BESIDE)
-        bounds = np.array(polygon.bounds)
-        warp = random_warp(bounds, size, random, random_style, rng, placing.period) if random else None
+    caps = {one.cap: one for one in find_poles(atlas)} if pole else {}
+    order = sorted(range(atlas.n_charts), key=lambda chart: (chart in caps, chart))
+    parts: dict[int, tuple[Outlines, Knobs]] = {}
+    nets: dict[int, Net] = {}
+    n_tiles: dict[int, int] = {}
+    first: dict[int, int] = {}  # label of each chart
+    n_edges = [0]
+    capstones: list[int] = []
+    facts: list[dict[str, Any]] = []
+    for chart in order:
+        polygon, placing = polygons[chart], placings[chart]
         again = None if turns is None else turns[sum(n_edges) :]
         chances = Chances(seed, len(n_edges), random, again)
+        first[chart] = sum(n_tiles.values())
+        if pole and chart in caps:
+            ring = caps[chart].ring
+            cap = close_pole(caps[chart], polygon, (nets[ring], parts[ring][0]), size, pole)
+            facts.append(_closed(caps[chart], cap))
+            if cap is not None:
+                ring_label = first[ring] - first[chart]
+                parts[chart] = drawn_cap(polygon, cap, ring_label, unit, size, min_neck, chances)
+                n_tiles[chart] = cap.net.n_own
+                n_edges.append(len(cap.net.ends))
+                capstones += [first[chart]] if cap.is_one_piece else []
+                continue
+        bounds = np.array(polygon.bounds)
+        net = lay_net(unit, placing, bounds, size / 2 + BESIDE)
+        warp = random_warp(bounds, size, random, random_style, rng, placing.period) if random else None
         drawing = _draw(polygon, unit, placing, net, warp or _same, template, min_neck, chances)
-        parts.append(chart_graph(polygon, drawing))
-        n_tiles.append(net.n_tiles)
+        parts[chart], nets[chart] = chart_graph(polygon, drawing), net
+        n_tiles[chart] = net.n_tiles
         n_edges.append(len(drawing.edges))
-    return joined(parts, n_tiles, n_edges[1:])
+    outlines, knobs = joined(list(parts.values()), list(n_tiles.values()), n_edges[1:])
+    return Tiling(outlines, knobs, np.array(capstones, np.int64), facts)
+
+
+def _closed(pole: Pole, cap: Cap | None) -> dict[str, Any]:
+    """Say how a pole was closed."""
+    by, meeting, why = "tiles", 0, "the cap is better tiled like any other chart"
+    if cap is not None:
+        by, meeting, why = "capstone" if cap.plan.capstone else "wedge", cap.meeting, cap.plan.why
+    return {"chart": pole.cap, "ring": pole.ring, "closed_by": by, "meeting": meeting, "why": why}
 
 
 def _draw(
