@@ -7,6 +7,7 @@ import logging
 import numpy as np
 
 from meshjig.cut import overlay
+from meshjig.isthmus import divide_at_isthmuses
 from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
@@ -26,6 +27,7 @@ log = logging.getLogger("meshjig")
 WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
 TRIES = 3
 REDRAWN = 12  # times at most that knobs are drawn anew to make borders unlike each other
+THIN = 0.05  # of a tile's edge: what the gap leaves so thin, or half as thin as a wall, is an isthmus
 DIFFERENT = 0.5  # how random tiles are at least when each has to be unique
 
 
@@ -88,6 +90,9 @@ def _cut(
     with stages("stitch"):
         graph = region_graph(cut)
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece)
+        if options.clearance_method == "solid":  # elsewhere the gap is a band along cuts and seams alone
+            isthmus = options.clearance + min(options.min_wall / 2, THIN * choice.size)
+            cut, stitching = divide_at_isthmuses(cut, stitching, isthmus, options.min_piece)
     return Layout(atlas, outlines, knobs, cut, stitching)
 
 
