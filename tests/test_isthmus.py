@@ -9,7 +9,7 @@ from meshjig.measure import face_areas
 from meshjig.passages import parts_by_width
 from meshjig.stitch import region_graph, stitch
 from meshjig.types import Outlines
-from tests.cut.graphs import SIDE, atlas, flat_sheet, wavy
+from tests.cut.graphs import SIDE, atlas, flat_sheet, halved_sheet
 
 NECK = 2.0
 HEAD = 24.0
@@ -17,20 +17,10 @@ HEAD = 24.0
 
 def knobbed(neck, bent):
     """A sheet in two, the left one with a square head on a neck that reaches into the right one."""
-    p, F = flat_sheet(21)
     a, b, h = SIDE / 2 - neck / 2, SIDE / 2 + neck / 2, HEAD / 2
     y = [-1, a, a, SIDE / 2 - h, SIDE / 2 - h, SIDE / 2 + h, SIDE / 2 + h, b, b, SIDE + 1]
     x = [40, 40, 50, 50, 50 + HEAD, 50 + HEAD, 50, 50, 40, 40]
-    points = np.stack([x, y], 1).astype(float)
-    n = len(points)
-    around = np.array([(-1, SIDE + 1), (-1, -1), (SIDE + 1, -1), (SIDE + 1, SIDE + 1)], float)
-    points = np.vstack([points, around])
-    segments = [[i, i + 1] for i in range(n - 1)] + [[n - 1, n], [n, n + 1], [n + 1, 0]]
-    segments += [[0, n + 2], [n + 2, n + 3], [n + 3, n - 1]]
-    left = [0] * (n - 1) + [0] * 3 + [1] * 3
-    right = [1] * (n - 1) + [2] * 6
-    sheet = atlas(wavy(p) if bent else np.c_[p, np.zeros(len(p))], F, p)
-    return overlay(sheet, Outlines(points, np.array(segments), np.array(left), np.array(right)))
+    return halved_sheet(np.stack([x, y], 1).astype(float), bent=bent)
 
 
 def stitched(cut):
