@@ -10,9 +10,10 @@ from meshjig.tiling.families.macro import leaning
 from meshjig.tiling.template import Template
 from meshjig.types import Floats
 
-__all__ = ["EDGE_SHAPES", "neck_width"]
+__all__ = ["EDGE_SHAPES", "neck_width", "with_symmetry"]
 
 _POINTS = 8  # a part of a knob
+_ALIKE = 0.02  # of an edge, within which a curve counts as symmetric
 _HALF = 2.2  # as large as a knob may be on half an edge
 
 
@@ -60,3 +61,29 @@ EDGE_SHAPES: dict[str, Callable[[float], Floats]] = {
     "I": _straight,  # both
 }
 """A curve from (0, 0) to (1, 0), (n, 2), by the letter of its symmetry; its argument scales the knobs."""
+
+
+def with_symmetry(curve: Floats, letter: str) -> Floats:
+    """Give an edge the symmetry that a tiling asks of it; one that has it stays as it is.
+
+    Parameters
+    ----------
+    curve : (n, 2) float64, from (0, 0) to (1, 0)
+    letter : str, a key of `EDGE_SHAPES`
+
+    Returns
+    -------
+    (k, 2) float64, from (0, 0) to (1, 0)
+        Otherwise the curve on either half: mirrored, or turned by a half turn; or straight.
+    """
+    import shapely
+
+    if letter == "J":
+        return curve
+    if letter == "I":
+        return _straight(1.0)
+    back = (1, 0) + curve[::-1] * ((-1, 1) if letter == "U" else (-1, -1))
+    if shapely.hausdorff_distance(shapely.LineString(curve), shapely.LineString(back)) < _ALIKE:
+        return curve
+    half = curve / 2
+    return np.vstack([half, (1, 0) + half[-2::-1] * ((-1, 1) if letter == "U" else (-1, -1))])
