@@ -93,7 +93,7 @@ def choose_knobs(
     curves = bend(along(straight, ends))
     need = STRETCH * min_neck / (template.neck_width * _length_at_middle(curves))
     least = np.minimum(need, 1.0)
-    full = np.maximum(vary, np.where(need <= LARGEST, need, least))
+    full = np.maximum(vary, np.minimum(need, LARGEST))
 
     chosen = np.zeros(n, bool)
     around = surroundings(curves, CLEAR * size, period)
