@@ -12,7 +12,7 @@ from meshjig.types import Bools, CutMesh, Floats, Ints, Stitching
 __all__ = ["divide_at_isthmuses"]
 
 SPECK = 1.0  # squares of the width; what is smaller and comes off is not missed
-ROUNDS = 3  # what was handed over may hang on by little again
+ROUNDS = 6  # what was handed over may hang on by little again
 
 
 def divide_at_isthmuses(
