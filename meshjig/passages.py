@@ -47,22 +47,16 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     ends = e.E[e.edge_of_halfedge[inner]]
     rim = _rim(V, F, e, piece, width)
     far = _distances(V, ends, rim, width)
-    wide = far > width / 2
-    stretch = np.where(
-        wide, np.cumsum(wide & ~np.roll(wide, 1, 1) | wide & (ALONG == 0)).reshape(wide.shape) - 1, -1
+    stretch, n = _stretches(far > width / 2)
+    pairs = np.concatenate(
+        [np.stack([stretch[:, k], n + ends[:, k]], 1)[stretch[:, k] >= 0] for k in (0, -1)]
     )
-    n_stretches = int(stretch.max(initial=-1)) + 1
-    at_ends = [(stretch[wide[:, k], k], n_stretches + ends[wide[:, k], k]) for k in (0, -1)]
-    pairs = np.concatenate([np.stack(pair, 1) for pair in at_ends])
-    label = _components(n_stretches + len(V), pairs)
     row = np.full(len(e.twin), -1)
     row[inner] = row[e.twin[inner]] = np.arange(len(inner))
-    more = _through_faces(V, row.reshape(-1, 3), ends, stretch, label, rim, width)
-    label = _components(n_stretches + len(V), np.concatenate([pairs, more]))
-    best, most = far.argmax(1), np.where(wide.any(1), far.max(1), -1.0)
-    widest = np.append(np.where(wide.any(1), label[stretch[np.arange(len(best)), best]], -1), -1)
-    side = np.append(most, -1.0)[row].reshape(-1, 3).argmax(1)
-    core = widest[row.reshape(-1, 3)[np.arange(len(F)), side]]
+    sides = row.reshape(-1, 3)
+    label = _components(n + len(V), pairs)
+    pairs = np.concatenate([pairs, _through_faces(V, sides, ends, stretch, label, rim, width)])
+    core = _of_widest_side(sides, far, stretch, _components(n + len(V), pairs))
     return _filled(V, F, np.stack([inner // 3, e.twin[inner] // 3], 1), core)
 
 
@@ -116,6 +110,22 @@ def _distances(V: Floats, ends: Ints, rim: _Rim, width: float) -> Floats:
         at = np.full(len(doubt), t)
         far[doubt, k] = rim.distance(_between(V, ends[doubt], at), _between(rim.N, ends[doubt], at))
     return far
+
+
+def _stretches(wide: Bools) -> tuple[Ints, int]:
+    """Number the runs of places along every edge that are wide, (k, 9), -1 elsewhere, and count them."""
+    begins = wide & np.hstack([np.ones((len(wide), 1), bool), ~wide[:, :-1]])
+    return np.where(wide, begins.cumsum().reshape(wide.shape) - 1, -1), int(begins.sum())
+
+
+def _of_widest_side(sides: Ints, far: Floats, stretch: Ints, label: Ints) -> Ints:
+    """Give faces (m, 3), by their edges, the label of the stretch farthest from borders; -1 for none."""
+    edge = np.arange(len(far))
+    best = np.where(stretch >= 0, far, -1.0).argmax(1)
+    stretch, most = stretch[edge, best], far[edge, best]
+    of_edge = np.append(np.where(stretch >= 0, label[stretch], -1), -1)
+    most = np.append(np.where(stretch >= 0, most, -1.0), -1.0)
+    return of_edge[sides[np.arange(len(sides)), most[sides].argmax(1)]]
 
 
 def _through_faces(
