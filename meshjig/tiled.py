@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshjig.cut import overlay
+from meshjig.isthmus import divide_at_isthmuses
 from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
@@ -27,6 +28,7 @@ log = logging.getLogger("meshjig")
 WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
 TRIES = 3
 REDRAWN = 12  # times at most that knobs are drawn anew to make borders unlike each other
+THIN = 0.05  # of a tile's edge: what the gap leaves so thin, or half as thin as a wall, is an isthmus
 DIFFERENT = 0.5  # how random tiles are at least when each has to be unique
 
 
@@ -91,6 +93,9 @@ def _cut(
         graph = region_graph(cut)
         capstones = np.unique(cut.region[np.isin(cut.label, tiling.capstones)])
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece, capstones)
+        if options.clearance_method == "solid":  # elsewhere the gap is a band along cuts and seams alone
+            isthmus = options.clearance + min(options.min_wall / 2, THIN * choice.size)
+            cut, stitching = divide_at_isthmuses(cut, stitching, isthmus, options.min_piece)
     if tiling.poles:
         stitching = replace(stitching, facts={**stitching.facts, "poles": tiling.poles})
     return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)

@@ -1,9 +1,10 @@
-"""How well neighbouring pieces hold each other: knobs, necks and heads, measured in space."""
+"""How well neighbouring pieces hold each other: knobs, necks, heads and undercuts, measured in space."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from meshjig.check.undercut import undercuts
 from meshjig.measure import sums
 from meshjig.topology import edge_keys, edges
 from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
@@ -11,6 +12,7 @@ from meshjig.types import Bools, CutMesh, Floats, Ints, Knobs
 __all__ = ["Interlock", "interlock"]
 
 TOUCH = 3.0  # clearances; borders up to that length count as corners
+SHORT = 30.0  # clearances; longer borders don't lie between others all along
 
 
 @dataclass(frozen=True)
@@ -24,23 +26,42 @@ class Interlock:
     head: Floats  # (k,), width of a whole knob's head, mm
     neck: Floats  # (k,), width of its neck, mm
 
-    @property
-    def interlocked_borders(self) -> float | None:
-        """Share of the borders with a knob."""
-        return float((self.knobs_of_pair > 0).mean()) if len(self.pairs) else None
+    border: Floats  # (e, 2, 3), mm, the straight parts of all borders
+    pair_of_border: Ints  # (e,), the pair that each divides, as a row of pairs
+    undercut: Floats  # (b,), mm, by which the two hold on to each other whichever way they are pulled
 
-    @property
-    def interlocked_length(self) -> float | None:
-        """Share of the length of all borders that belongs to borders with a knob."""
+    def locked(self, clearance: float) -> Bools:
+        """Tell which pairs interlock, (b,): by a whole knob, or by an undercut that outdoes the gap."""
+        return (self.knobs_of_pair > 0) | (self.undercut > clearance)
+
+    def interlocked_borders(self, clearance: float) -> float | None:
+        """Share of the borders that interlock."""
+        return float(self.locked(clearance).mean()) if len(self.pairs) else None
+
+    def interlocked_length(self, clearance: float) -> float | None:
+        """Share of the length of all borders that belongs to borders that interlock."""
         total = float(self.length.sum())
-        return float(self.length[self.knobs_of_pair > 0].sum()) / total if total > 0 else None
+        return float(self.length[self.locked(clearance)].sum()) / total if total > 0 else None
 
     def faces_other(self, clearance: float) -> Bools:
         """Tell which pairs face each other over a gap, (b,); others share no more than a corner.
 
-        A border of a few clearances is swallowed by the gaps of the pieces at its ends.
+        A border of a few clearances is swallowed by the gaps of the pieces at its ends, and one that lies
+        between two others all along by the gaps of those.
         """
-        return self.length > TOUCH * clearance
+        facing = self.length > TOUCH * clearance
+        short = np.flatnonzero(facing & (self.length < SHORT * clearance))
+        if not len(short):
+            return facing
+        points, of_pair = _points_along(self.border, self.pair_of_border, clearance / 4)
+        reach = TOUCH / 2 * clearance
+        for k in short.tolist():
+            own = points[of_pair == k]
+            near = (points >= own.min(0) - reach).all(1) & (points <= own.max(0) + reach).all(1)
+            others = points[near & (of_pair != k)]
+            apart = np.linalg.norm(own[:, None] - others, axis=2).min(1, initial=np.inf)
+            facing[k] = apart.max() > reach
+        return facing
 
     def thin_necked(self, least: float) -> list[int]:
         """List the pieces with a knob, their own or the other's in them, whose neck is narrower, mm."""
@@ -73,14 +94,26 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
     pair_of_cut = _lookup(edge_keys(ends, n), pair_of_edge, edge_keys(cut.cuts, n))
     whole, knob_pair = _whole_knobs(cut, knobs, pair_of_cut)
     head, neck = (_width(cut, points[whole]) for points in (knobs.head, knobs.neck))
+    pairs = np.stack([keys // n_pieces, keys % n_pieces], 1)
     return Interlock(
-        np.stack([keys // n_pieces, keys % n_pieces], 1),
+        pairs,
         length,
         np.bincount(knob_pair, minlength=len(keys)),
         knob_pair,
         head,
         neck,
+        cut.V[ends],
+        pair_of_edge,
+        undercuts(cut, piece_of_face, pairs),
     )
+
+
+def _points_along(parts: Floats, of: Ints, spacing: float) -> tuple[Floats, Ints]:
+    """Give points (k, 3) along straight parts (e, 2, 3), ends included, and what they belong to, (k,)."""
+    n = np.ceil(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1) / spacing).astype(np.int64) + 1
+    row = np.repeat(np.arange(len(n)), n)
+    t = (np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)) / np.maximum(n[row] - 1, 1)
+    return parts[row, 0] + t[:, None] * (parts[row, 1] - parts[row, 0]), of[row]
 
 
 def _lookup(keys: Ints, values: Ints, wanted: Ints) -> Ints:

@@ -17,7 +17,8 @@ JITTER = 0.06  # of an edge, that a knob to either side is off its place by chan
 SMALLER, LARGER = 0.85, 1.1  # how much knobs vary in size by chance, when all is random
 LEAN = 0.3  # of its height, that a knob's top is moved sideways then
 FARTHEST = 0.2  # of an edge, that a knob is moved from the middle for its own good
-LARGEST = 1.2  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
+LARGEST = 1.4  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
+STRETCH = 1.04  # of the neck asked for, since charts are a little larger than the surface in places
 LEAST_HEAD = 1.3  # widths of the neck, after bending
 # the scale before and this one; place, None for the middle of what lies inside the chart; side
 _SCALES = ((np.inf, 1.0), (1.0, 0.85), (0.85, 0.7))
@@ -94,12 +95,12 @@ def choose_knobs(
     chance, jitter, lean, vary = chances.draw(n)
     first_side = np.where(sides == 0, chance, sides)
     jitter = jitter * (sides == 0)
-    need = min_neck / (template.neck_width * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
-    least = np.minimum(need, 1.0)
-    full = np.maximum(vary, np.where(need <= largest, need, least))
-
     straight = np.stack([np.linspace(0, 1, len(template.points)), np.zeros(len(template.points))], 1)
     curves = bend(along(straight, ends))
+    need = STRETCH * min_neck / (template.neck_width * _length_at_middle(curves))
+    least = np.minimum(need, 1.0)
+    full = np.maximum(vary, np.minimum(need, largest))
+
     chosen = np.zeros(n, bool)
     around = surroundings(curves, CLEAR * size if clearance is None else clearance, period)
     knob = slice(template.neck[0], template.neck[1] + 1)
@@ -123,6 +124,13 @@ def choose_knobs(
         curves[todo[clear]] = tried[clear]
         chosen[todo[clear]] = True
     return chosen, curves
+
+
+def _length_at_middle(curves: Floats) -> Floats:
+    """Give how long straight edges (e, n, 2) would be, bent all along as they are in the middle; (e,), mm."""
+    n = curves.shape[1] - 1
+    a, b = int(0.4 * n), n - int(0.4 * n)
+    return np.linalg.norm(curves[:, b] - curves[:, a], axis=1) * n / (b - a)
 
 
 def _free_middles(inside: Any, ends: Floats) -> tuple[Bools, Floats]:

@@ -42,7 +42,8 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
     Parameters
     ----------
     name : str
-        One of `family_names`, ``isohedral:`` and a type such as IH04, or the path of an SVG file.
+        One of `family_names`, ``isohedral:`` and a type such as IH04, that and the path of an SVG
+        file with edges of one's own, such as isohedral:IH04:FILE.svg, or the path of one with whole tiles.
     seed : int, for tilings that have something random about them
     columns : int, at least 1, optional
         For tilings that can close around a periodic chart with any number of columns: how many.
@@ -58,10 +59,10 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
     """
     if name in _OWN:
         return _OWN[name].unit(seed, columns)
-    if name.lower().endswith(_SVG):
-        return user_unit(name)
     if name.startswith(_ISOHEDRAL):
         return isohedral(name.removeprefix(_ISOHEDRAL), seed)
+    if name.lower().endswith(_SVG):
+        return user_unit(name)
     if _figure(name):
         return escher.unit(_figure(name))
     if name in plugin_names():
@@ -103,6 +104,7 @@ def family_names() -> list[tuple[str, str]]:
         *((name, family.description) for name, family in _OWN.items()),
         *((name, f"figures: {name.removeprefix(_ESCHER)}") for name in _figures()),
         ("isohedral:IHnn", "one shape in the symmetry of a type from IH01 to IH93"),
+        ("isohedral:IHnn:FILE.svg", "the same with edges that you draw, each an open path"),
         ("FILE.svg", "your own outline, or several that tile together"),
         *(plugin for plugin in describe_plugins() if plugin[0] not in _OWN),
     ]

@@ -14,7 +14,7 @@ WarpStyle = Literal["bspline", "bilinear"]
 _DEGREE = {"bspline": 3, "bilinear": 1}
 # how far a control point moves at random = 1, in distances of control points; a cubic evens moves out
 _MOVE = {"bspline": 0.85, "bilinear": 0.45}
-LEAST = 0.25  # of the area of a sample, that is left of it
+LEAST = 0.35  # of the area of a sample, that is left of it
 SAMPLES = 6  # a distance of control points
 SHRINK = 0.8
 
@@ -73,7 +73,7 @@ def random_warp(
 
     Notes
     -----
-    Sampled finely, no part of the plane shrinks below a quarter of its area: moves are made
+    Sampled finely, no part of the plane shrinks below 35 % of its area: moves are made
     smaller until that holds.
 
     References

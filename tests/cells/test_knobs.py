@@ -39,7 +39,7 @@ def test_every_border_has_a_whole_knob_that_holds(name):
     found = interlock(cut, layout.knobs, cut.label)
     assert layout.facts["borders"] == len(layout.pairs) == 24
     assert layout.facts["knobs"] == 24
-    assert found.interlocked_borders == 1.0
+    assert found.interlocked_borders(0.2) == 1.0
     assert len(found.neck) == 24
     assert (found.head / found.neck).min() > 1.5
     assert np.unique(cut.label).tolist() == list(range(16))

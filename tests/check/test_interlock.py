@@ -1,12 +1,15 @@
 """Knobs are found whole or not at all, and measured in space."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from meshjig.check.interlock import interlock
 from meshjig.cut.overlay import overlay
 from meshjig.tiling import tile_charts
-from tests.cut.graphs import SIDE, atlas, flat_sheet
+from meshjig.types import Knobs
+from tests.cut.graphs import SIDE, atlas, flat_sheet, halved_sheet
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +30,7 @@ def test_every_inner_border_of_a_sheet_has_its_knob(tiled):
     found = interlock(cut, tiled[1], pieces_of(cut))
     assert len(found.pairs) == 12
     assert found.knobs_of_pair.tolist() == [1] * 12
-    assert found.interlocked_borders == found.interlocked_length == 1.0
+    assert found.interlocked_borders(0.2) == found.interlocked_length(0.2) == 1.0
 
 
 def test_widths_are_those_of_the_drawing(tiled):
@@ -57,4 +60,32 @@ def test_a_knob_between_changing_pieces_is_not_whole(tiled):
     found = interlock(cut, knobs, piece)
     assert len(found.neck) < 12
     assert (found.knobs_of_pair == 0).any()
-    assert found.interlocked_borders < 1
+    assert found.interlocked_borders(0.2) < 1
+
+
+def test_a_shape_that_holds_counts_without_knobs(tiled):
+    _, _, cut = tiled
+    none = np.zeros((0, 2), np.int64)
+    found = interlock(cut, Knobs(none, none, none), pieces_of(cut))
+    assert found.interlocked_borders(0.2) == 1.0
+    assert found.interlocked_borders(20.0) == 0.0
+
+
+def strip(width, length=1.5):
+    """Four pieces: two meet end to end in a strip between two others."""
+    cut = halved_sheet(np.array([(SIDE / 2, -1.0), (SIDE / 2, SIDE + 1)]), n=10)
+    V = cut.V.copy()
+    V[:, 1] = np.interp(V[:, 1], [0, 50, 60, SIDE], [0, 50, 50 + width, SIDE])
+    y = V[cut.F].mean(1)[:, 1]
+    piece = np.where(y < 50, 2, np.where(y < 50 + width, cut.label, 3))
+    return replace(cut, V=V), piece
+
+
+@pytest.mark.parametrize(("width", "faces"), [(0.5, False), (5.0, True)], ids=["a sliver", "wide"])
+def test_pieces_that_meet_in_a_sliver_between_others_do_not_face_each_other(width, faces):
+    cut, piece = strip(width)
+    none = np.zeros((0, 2), np.int64)
+    found = interlock(cut, Knobs(none, none, none), piece)
+    pairs = found.pairs[found.faces_other(0.3)].tolist()
+    assert ([0, 1] in pairs) == faces
+    assert [0, 2] in pairs

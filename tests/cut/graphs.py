@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 from scipy.spatial import Delaunay
 
+from meshjig.cut.overlay import overlay
 from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
 from meshjig.topology import edges
 from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Knobs, Mesh, Outlines
@@ -258,3 +259,15 @@ def _knob() -> Floats:
     right = np.array([(0.35, 0), (0.44, 0.03), (0.40, 0.15), (0.42, 0.25), (0.5, 0.28)])
     left = [(1 - x, y) for x, y in right[-2::-1]]
     return np.vstack([[(0, 0)], right, left, [(1, 0)]])
+
+
+def halved_sheet(curve: Floats, n: int = 21, bent: bool = False) -> CutMesh:
+    """Cut a sheet in two along a curve upward from below it: label 0 on its left, 1 on its right."""
+    p, F = flat_sheet(n)
+    k, low, high = len(curve), -1.0, SIDE + 1.0
+    points = np.vstack([curve, [(low, high), (low, low), (high, low), (high, high)]])
+    segments = [(i, i + 1) for i in range(k + 1)] + [(k + 1, 0), (0, k + 2), (k + 2, k + 3), (k + 3, k - 1)]
+    left = np.repeat([0, 0, 1], [k - 1, 3, 3])
+    right = np.repeat([1, 2], [k - 1, 6])
+    sheet = atlas(wavy(p) if bent else np.c_[p, np.zeros(len(p))], F, p)
+    return overlay(sheet, Outlines(points, np.array(segments), left, right))

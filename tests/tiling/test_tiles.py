@@ -7,6 +7,7 @@ import shapely
 from meshjig.tiling import Placing, chart_polygons, squares, tile_charts
 from meshjig.tiling.classic import classic
 from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.registry import get_family
 from tests.tiling.charts import flat_chart
 from tests.tiling.units import bricks, waves
 
@@ -156,3 +157,14 @@ def test_knobs_grow_a_little_for_a_neck_that_would_be_too_thin():
     outlines, knobs = tile_charts(flat_chart(), 13.0, min_neck=least)
     neck = np.linalg.norm(np.diff(outlines.points[knobs.neck], axis=1)[:, 0], axis=1)
     assert np.median(neck) > 0.98 * least
+
+
+@pytest.mark.parametrize("family", ["classic", "rectangular", "macro"])
+def test_knobs_grow_where_bending_makes_necks_thin(family):
+    """Straight necks are 2.2 mm as asked; bent at random, few become thinner, and none by half."""
+    outlines, knobs = tile_charts(
+        flat_chart(), 15.0, unit=get_family(family), min_neck=2.2, random=0.7, seed=1
+    )
+    neck = np.linalg.norm(np.diff(outlines.points[knobs.neck], axis=1)[:, 0], axis=1)
+    assert (neck < 2.2).mean() < 0.2
+    assert neck.min() > 1.6

@@ -7,11 +7,14 @@ import numpy as np
 from meshjig.tiling.classic import classic
 from meshjig.tiling.enlarge import enlarged, moved_knob
 from meshjig.tiling.families.macro import leaning
+from meshjig.tiling.template import Template
 from meshjig.types import Floats
 
-__all__ = ["EDGE_SHAPES"]
+__all__ = ["EDGE_SHAPES", "neck_width", "with_symmetry"]
 
 _POINTS = 8  # a part of a knob
+_ALIKE = 0.02  # of an edge, within which a curve counts as symmetric
+_HALF = 2.2  # as large as a knob may be on half an edge
 
 
 def _straight(_: float) -> Floats:
@@ -28,8 +31,27 @@ def _leaning_knob(size: float) -> Floats:
 
 def _knob_and_socket(size: float) -> Floats:
     """Draw a knob on the first half, and the same turned by a half turn about the middle."""
-    half = moved_knob(classic(_POINTS).points, min(2 * size, 1.5), 0.64) / 2
+    half = _half_knob(size) / 2
     return np.vstack([half, (1, 0) - half[-2::-1]])
+
+
+def _half_knob(size: float) -> Floats:
+    return moved_knob(classic(_POINTS).points, min(2 * size, _HALF), 0.55)
+
+
+def neck_width(letter: str, size: float) -> float:
+    """Give how wide the necks of an edge from (0, 0) to (1, 0) are; no neck is as wide as any.
+
+    Parameters
+    ----------
+    letter : str, a key of `EDGE_SHAPES`
+    size : float, its argument
+    """
+    if letter == "I":
+        return np.inf
+    if letter == "S":
+        return Template(_half_knob(size)).neck_width / 2
+    return Template(EDGE_SHAPES[letter](size)).neck_width
 
 
 EDGE_SHAPES: dict[str, Callable[[float], Floats]] = {
@@ -39,3 +61,29 @@ EDGE_SHAPES: dict[str, Callable[[float], Floats]] = {
     "I": _straight,  # both
 }
 """A curve from (0, 0) to (1, 0), (n, 2), by the letter of its symmetry; its argument scales the knobs."""
+
+
+def with_symmetry(curve: Floats, letter: str) -> Floats:
+    """Give an edge the symmetry that a tiling asks of it; one that has it stays as it is.
+
+    Parameters
+    ----------
+    curve : (n, 2) float64, from (0, 0) to (1, 0)
+    letter : str, a key of `EDGE_SHAPES`
+
+    Returns
+    -------
+    (k, 2) float64, from (0, 0) to (1, 0)
+        Otherwise the curve on either half: mirrored, or turned by a half turn; or straight.
+    """
+    import shapely
+
+    if letter == "J":
+        return curve
+    if letter == "I":
+        return _straight(1.0)
+    back = (1, 0) + curve[::-1] * ((-1, 1) if letter == "U" else (-1, -1))
+    if shapely.hausdorff_distance(shapely.LineString(curve), shapely.LineString(back)) < _ALIKE:
+        return curve
+    half = curve / 2
+    return np.vstack([half, (1, 0) + half[-2::-1] * ((-1, 1) if letter == "U" else (-1, -1))])

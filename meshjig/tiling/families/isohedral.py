@@ -9,7 +9,8 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.tiling.assemble import assemble
-from meshjig.tiling.families.edge_shapes import EDGE_SHAPES
+from meshjig.tiling.families.edge_shapes import EDGE_SHAPES, neck_width, with_symmetry
+from meshjig.tiling.svg.edges import read_edges
 from meshjig.tiling.unit import Unit
 from meshjig.types import Floats
 
@@ -25,11 +26,13 @@ _WALLS = np.arange(0.05, 0.16, 0.015)  # of a tile's edge: what may be left betw
 def isohedral(name: str, seed: int = 0) -> Unit:
     """Shape the edges of an isohedral tiling so that its tiles interlock.
 
-    Knobs are as large as leaves walls of 5 % of the tile's edge, and point the ways that leave the widest.
+    Knobs are as large, and point the ways, that leave the widest necks and walls: at least 5 % of the
+    tile's edge. Edges of one's own are drawn in a file: the first path is for the tile's first edge and
+    those that are copies of it, the second one for the second, and so on, from the first again.
 
     Parameters
     ----------
-    name : str, IH1 to IH93
+    name : str, IH1 to IH93, or such and the path of an SVG file, with a colon between the two
     seed : int, decides which way the knobs point where several ways are as good
 
     Returns
@@ -39,25 +42,36 @@ def isohedral(name: str, seed: int = 0) -> Unit:
     Raises
     ------
     OptionError
-        There is no such type, it has straight edges only, or the package tactile is missing.
+        There is no such type, it has straight edges only, or the package tactile is missing; or the file
+        can't be read, or its curves don't fit.
 
     References
     ----------
     Gruenbaum and Shephard, "Tilings and Patterns", 1987, chapter 6.
     Kaplan, "Introductory Tiling Theory for Computer Graphics", 2009.
     """
-    number = _number(name)
+    kind, _, path = name.partition(":")
+    number = _number(kind)
+    own = read_edges(path) if path else None
     tiling = _tiling(number)
     translations = np.array([tiling.t1, tiling.t2])
     if np.linalg.det(translations) < 0:
         translations = translations[::-1]
     scale = float(np.sqrt(np.linalg.det(translations) / tiling.num_aspects))
-    for choices in _shaped(tiling, scale, np.random.default_rng(seed)):
-        walls = [_thinnest(edges, scale) for edges in choices]
-        if max(walls) > 0:
-            edges = choices[int(np.argmax(walls))]
-            return assemble([_placed(edges, aspect) for aspect in tiling.aspects], translations)
-    raise OptionError(f"IH{number:02d} leaves no room for knobs")
+    best, widest = None, 0.0
+    for edges, neck in _shaped(tiling, scale, np.random.default_rng(seed), own):
+        wall = min(neck, _thinnest(edges, scale, widest)) if neck > widest else 0.0
+        if wall > widest:
+            best, widest = edges, wall
+    if best is None and path:
+        raise OptionError(
+            f"{path}: on the edges of IH{number:02d} its curves cross each other, or leave a tile "
+            f"thinner than {_WALLS[0]:.0%} of its edge, whichever side they are on",
+            hint="draw flatter ones",
+        )
+    if best is None:
+        raise OptionError(f"IH{number:02d} leaves no room for knobs")
+    return assemble([_placed(best, aspect) for aspect in tiling.aspects], translations)
 
 
 def _number(name: str) -> int:
@@ -86,32 +100,52 @@ def _tiling(number: int) -> Any:
     return IsohedralTiling(number)
 
 
-def _shaped(tiling: Any, scale: float, rng: np.random.Generator) -> Iterator[list[list[Floats]]]:
-    """Draw the tile's edges, in turn around it, for all ways their knobs may point; ever smaller knobs."""
+def _shaped(
+    tiling: Any, scale: float, rng: np.random.Generator, own: list[Floats] | None
+) -> Iterator[tuple[list[Floats], float]]:
+    """Draw the tile's edges, in turn around it, for all ways their knobs may point; ever smaller knobs.
+
+    Also give the width of the narrowest neck, in tile's edges.
+    """
     shapes = list(tiling.shapes)
     ways = np.array(list(product((1.0, -1.0), repeat=1 + max(shape.id for shape in shapes))))
-    for size in _SIZES:
-        choices = []
+    matrices = [np.reshape(shape.T, (2, 3)) for shape in shapes]
+    length = [float(np.linalg.norm(matrix[:, 0])) / scale for matrix in matrices]
+    for size in _SIZES.tolist() if own is None else (1.0,):
+        factors = [min(size / edge, _LARGEST) for edge in length]
+        curves = [
+            EDGE_SHAPES[shape.shape.name](by)
+            if own is None
+            else with_symmetry(own[shape.id % len(own)], shape.shape.name)
+            for shape, by in zip(shapes, factors, strict=True)
+        ]
+        neck = (
+            1.0
+            if own is not None
+            else min(
+                neck_width(shape.shape.name, by) * edge
+                for shape, by, edge in zip(shapes, factors, length, strict=True)
+            )
+        )
         for way in rng.permutation(ways):
-            edges = []
-            for shape in shapes:
-                matrix = np.reshape(shape.T, (2, 3))
-                factor = size * scale / np.linalg.norm(matrix[:, 0])
-                curve = EDGE_SHAPES[shape.shape.name](min(factor, _LARGEST)) * (1.0, way[shape.id])
-                edges.append(_moved(curve[::-1] if shape.rev else curve, matrix))
-            choices.append(edges)
-        yield choices
+            yield (
+                [
+                    _moved(curve[:: -1 if shape.rev else 1] * (1.0, way[shape.id]), matrix)
+                    for curve, shape, matrix in zip(curves, shapes, matrices, strict=True)
+                ],
+                neck,
+            )
 
 
-def _thinnest(edges: list[Floats], scale: float) -> float:
-    """Give the width up to which walls can be taken off a tile that stays in one piece, 0 if too thin."""
+def _thinnest(edges: list[Floats], scale: float, least: float) -> float:
+    """Give the width up to which walls can be taken off a tile that stays in one piece; 0, if no more."""
     import shapely
 
     tile = shapely.Polygon(np.vstack([curve[:-1] for curve in edges]))
     if not tile.is_valid:
         return 0.0
     widest = 0.0
-    for width in _WALLS:
+    for width in _WALLS[least < _WALLS]:
         if tile.buffer(-width * scale / 2).geom_type != "Polygon":
             break
         widest = width

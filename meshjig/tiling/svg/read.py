@@ -10,7 +10,7 @@ import numpy as np
 from meshjig.errors import OptionError
 from meshjig.types import Bools, Floats
 
-__all__ = ["SNAP", "Outline", "place", "read_outlines"]
+__all__ = ["SNAP", "Outline", "place", "polyline", "read_outlines", "shown_parts"]
 
 SNAP = 0.005  # share of a tile's size within which points of a drawing count as one
 
@@ -55,6 +55,28 @@ def read_outlines(path: str | Path) -> list[Outline]:
     OptionError
         The file can't be read, has no closed path, or a path is open, crosses or touches itself.
     """
+    outlines = [outline for name, part in shown_parts(path) for outline in _outlines(part, name, path)]
+    if not outlines:
+        raise OptionError(f"{path} shows no closed path", hint="draw the outline of a tile")
+    return outlines
+
+
+def shown_parts(path: str | Path) -> Iterator[tuple[str, Any]]:
+    """Give every subpath that is shown, in the drawing's coordinates, and the name of its path.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Yields
+    ------
+    (str, svgelements.Subpath)
+
+    Raises
+    ------
+    OptionError
+        The file can't be read.
+    """
     import svgelements
 
     if not Path(path).is_file():
@@ -64,16 +86,39 @@ def read_outlines(path: str | Path) -> list[Outline]:
         to_file = ~svgelements.Matrix(drawing.viewbox_transform or "")
     except Exception as error:  # malformed attributes make the parser fail in any way
         raise OptionError(f"{path} can't be read as SVG: {error}") from None
-    outlines: list[Outline] = []
+    number = 0
     for element in drawing.elements():
         if isinstance(element, svgelements.Shape) and _is_shown(element):
             drawn = svgelements.Path(element) * to_file
             drawn.reify()
-            name = f"path {element.id}" if element.id else f"path {len(outlines) + 1}"
-            outlines += [outline for part in drawn.as_subpaths() for outline in _outlines(part, name, path)]
-    if not outlines:
-        raise OptionError(f"{path} shows no closed path", hint="draw the outline of a tile")
-    return outlines
+            number += 1
+            for part in drawn.as_subpaths():
+                yield (f"path {element.id}" if element.id else f"path {number}"), part
+
+
+def polyline(part: Any) -> tuple[Floats, Bools]:
+    """Draw a subpath.
+
+    Parameters
+    ----------
+    part : svgelements.Subpath
+
+    Returns
+    -------
+    points : (n, 2) float64, y upward, its start first; none for a lone point
+    node : (n,) bool, drawn as a node; the rest are points of curves
+    """
+    import svgelements
+
+    segments = [segment for segment in part if not isinstance(segment, svgelements.Move)]
+    box = part.bbox()
+    extent = float(np.hypot(box[2] - box[0], box[3] - box[1])) if segments and box else 0.0
+    if extent == 0.0:
+        return np.zeros((0, 2)), np.zeros(0, bool)
+    drawn = [_polyline(segment, _FLAT * extent) for segment in segments]
+    points = np.vstack([np.array(segments[0].start, dtype=np.float64), *drawn]) * (1, -1)
+    node = np.concatenate([[True], *(np.arange(len(part)) == len(part) - 1 for part in drawn)])
+    return points, node
 
 
 def place(point: Floats) -> str:
@@ -90,22 +135,17 @@ def _outlines(part: Any, name: str, path: str | Path) -> Iterator[Outline]:
     """Give the outline that a subpath draws; none for a lone point."""
     import svgelements
 
-    segments = [segment for segment in part if not isinstance(segment, svgelements.Move)]
-    box = part.bbox()
-    extent = float(np.hypot(box[2] - box[0], box[3] - box[1])) if segments and box else 0.0
-    if extent == 0.0:
+    points, node = polyline(part)
+    if not len(points):
         return
-    drawn = [_polyline(segment, _FLAT * extent) for segment in segments]
-    points = np.vstack(drawn) * (1, -1)
-    node = np.concatenate([np.arange(len(part)) == len(part) - 1 for part in drawn])
-    start = np.array(segments[0].start) * (1, -1)
-    closed = any(isinstance(segment, svgelements.Close) for segment in segments)
+    extent, start = float(np.linalg.norm(np.ptp(points, axis=0))), points[0]
+    closed = any(isinstance(segment, svgelements.Close) for segment in part)
     if not closed and np.linalg.norm(points[-1] - start) > SNAP * extent:
         raise OptionError(
             f"{path}: {name} is open: it starts at {place(start)} and ends at {place(points[-1])}",
             hint="close it",
         )
-    points[-1] = start
+    points, node = np.vstack([points[1:-1], start]), node[1:]
     kept = np.linalg.norm(points - np.roll(points, 1, 0), axis=1) > _SAME * extent
     points, node = points[kept], node[kept]
     if len(points) < 3:
