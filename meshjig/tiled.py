@@ -11,6 +11,7 @@ from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
 from meshjig.progress import Stages
+from meshjig.seamed import knobs_over_seams
 from meshjig.sizing import TileChoice, choose_tiles
 from meshjig.stitch import region_graph, stitch
 from meshjig.tiling import Unit, tile_charts
@@ -36,7 +37,7 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     ----------
     atlas : Atlas
     options : Options
-    stages : Stages, hears of tiling, cut and stitch
+    stages : Stages, hears of tiling, cut, stitch and seams
     """
     unit = get_family(options.tile, options.seed, _columns(atlas, options))
     wanted, angle = options.pieces, options.angle
@@ -58,7 +59,7 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
         wanted = max(1, round(wanted * options.pieces / n))
     best = int(np.argmin([abs(layout.stitching.n_pieces - options.pieces) for layout in tried]))
     if not options.unique:
-        return tried[best]
+        return _finished(tried[best], options, stages)
     return _without_clashes(tried[best], atlas, unit, chosen[best], least_border, options, stages)
 
 
@@ -78,7 +79,7 @@ def _cut(
             unit=unit,
             placings=choice.placings,
             min_neck=least_border,
-            random=max(options.random, DIFFERENT if options.unique else 0.0),
+            random=_random(options),
             random_style=options.random_style,
             seed=options.seed,
             turns=turns,
@@ -89,6 +90,16 @@ def _cut(
         graph = region_graph(cut)
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece)
     return Layout(atlas, outlines, knobs, cut, stitching)
+
+
+def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
+    """Give pieces that meet along a seam their knobs, drawn anew at every turn."""
+    with stages("seams"):
+        return knobs_over_seams(layout, options, _random(options), options.seed + turn)
+
+
+def _random(options: Options) -> float:
+    return max(options.random, DIFFERENT if options.unique else 0.0)
 
 
 def _without_clashes(
@@ -103,7 +114,8 @@ def _without_clashes(
     """Draw knobs anew for as long as borders look alike."""
     turns = np.zeros(0, np.int64)
     best, fewest = layout, np.inf
-    for _ in range(REDRAWN):
+    for turn in range(REDRAWN):
+        layout = _finished(layout, options, stages, turn)
         with stages("unique"):
             edges, facts = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))
         log.info("unique: %s", facts)
