@@ -75,12 +75,18 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
 
 
 def _plain_over_seams(layout: Layout, locks: Interlock, least: float) -> Ints:
-    """Find pairs of pieces without a knob between them whose border is long and mostly seam, (k, 2)."""
+    """Find pairs of pieces whose border is long, though no knob is on it for a seam's sake, (k, 2).
+
+    Where tiles have knobs, that is any border without one; where their shapes hold each other, one that
+    is mostly seam.
+    """
     n = layout.stitching.n_pieces
     graph = region_graph(replace(layout.cut, region=layout.piece_of_face))
     seam = dict(zip((graph.pairs @ [n, 1])[graph.seam].tolist(), graph.length[graph.seam], strict=True))
     on_seam = np.array([seam.get(key, 0.0) for key in (locks.pairs @ [n, 1]).tolist()])
-    plain = (locks.knobs_of_pair == 0) & (locks.length > least) & (on_seam > MOSTLY * locks.length)
+    plain = (locks.knobs_of_pair == 0) & (locks.length > least)
+    if not len(layout.knobs.neck):
+        plain &= on_seam > MOSTLY * locks.length
     return locks.pairs[plain]
 
 
