@@ -12,11 +12,11 @@ from meshjig.cells.discs import DISC, shapes
 from meshjig.check.interlock import Interlock, interlock
 from meshjig.cut import Further, cut_further, fold, overlay
 from meshjig.layout import Layout
-from meshjig.measure import face_areas
+from meshjig.measure import barycentric, face_areas, interpolate
 from meshjig.options import Options
 from meshjig.stitch import region_graph
 from meshjig.topology import compact, edges
-from meshjig.types import CutMesh, Ints, Knobs, Mesh, Stitching
+from meshjig.types import CutMesh, Floats, Ints, Knobs, Mesh, Stitching
 
 __all__ = ["knobs_over_seams"]
 
@@ -57,7 +57,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
     between = between[(between >= 0).all(1)]
     n_knobs = 0
     if len(between):
-        atlas = cell_atlas(cells)
+        atlas = cell_atlas(cells, _in_plane(layout, chosen))
         knobs = knob_outlines(
             atlas,
             size=size,
@@ -110,6 +110,14 @@ def _as_cells(layout: Layout, pairs: Ints) -> tuple[Ints, CellMesh, Ints, Ints]:
     mesh = Mesh(cut.V[kept], F)
     cells = CellMesh(mesh, cut.parent[chosen], cut.vertex_face[kept], cut.vertex_bary[kept], cell)
     return np.flatnonzero(wanted), cells, chosen, kept
+
+
+def _in_plane(layout: Layout, chosen: Ints) -> Floats:
+    """Give the places in the charts of the corners of some faces of the cut mesh, (k, 3, 2), mm."""
+    atlas, cut = layout.atlas, layout.cut
+    parent, vertex = np.repeat(cut.parent[chosen], 3), cut.F[chosen].ravel()
+    bary = barycentric(atlas.mesh.V, atlas.mesh.F, parent, cut.V[vertex])
+    return interpolate(atlas.uv, atlas.F_uv, parent, bary).reshape(-1, 3, 2)
 
 
 def _like_the_others(locks: Interlock, size: float) -> float:
