@@ -7,16 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshjig.cells import CellMesh, KnobLayout, cell_atlas, knob_outlines
+from meshjig.cells import CellMesh, cell_atlas, knob_outlines
 from meshjig.cells.discs import DISC, shapes
 from meshjig.check.interlock import Interlock, interlock
-from meshjig.cut import Further, cut_further, fold, overlay
+from meshjig.cut import Further, fold, overlay
 from meshjig.layout import Layout
 from meshjig.measure import barycentric, face_areas, interpolate
 from meshjig.options import Options
+from meshjig.recut import recut
 from meshjig.stitch import region_graph
 from meshjig.topology import compact, edges
-from meshjig.types import CutMesh, Floats, Ints, Knobs, Mesh, Stitching
+from meshjig.types import Floats, Ints, Knobs, Mesh
 
 __all__ = ["knobs_over_seams"]
 
@@ -69,7 +70,10 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
         )
         log.info("seams: %s, flattened %s", knobs.facts, atlas.facts)
         n_knobs = knobs.facts["knobs"]
-        layout = _cut_again(layout, overlay(atlas, knobs.outlines), knobs, chosen, kept, piece_of_cell)
+        n_segments = len(layout.outlines.segments)
+        second = overlay(atlas, knobs.outlines)
+        layout, further = recut(layout, chosen, kept, second, piece_of_cell)
+        layout = replace(layout, knobs=_with_more(layout.knobs, knobs.knobs, further, n_segments))
     facts = layout.stitching.facts | {"seam_borders": len(pairs), "seam_knobs": n_knobs}
     return replace(layout, stitching=replace(layout.stitching, facts=facts))
 
@@ -125,18 +129,6 @@ def _like_the_others(locks: Interlock, size: float) -> float:
     if not len(locks.head):
         return 1.0
     return float(np.clip(np.median(locks.head) / (HEAD * size), *SIZES))
-
-
-def _cut_again(
-    layout: Layout, second: CutMesh, made: KnobLayout, chosen: Ints, kept: Ints, piece_of_cell: Ints
-) -> Layout:
-    further = cut_further(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
-    cell_of_region = np.zeros(int(second.region.max()) + 1, np.int64)
-    cell_of_region[second.region] = second.label
-    piece_of_region = np.concatenate([layout.stitching.piece_of_region, piece_of_cell[cell_of_region]])
-    stitching = Stitching(piece_of_region, layout.stitching.facts)
-    knobs = _with_more(layout.knobs, made.knobs, further, len(layout.outlines.segments))
-    return Layout(layout.atlas, further.outlines, knobs, further.cut, stitching)
 
 
 def _with_more(knobs: Knobs, more: Knobs, further: Further, n_segments: int) -> Knobs:
