@@ -46,18 +46,17 @@ def even_seams(layout: Layout) -> Layout:
 def _seam_lines(layout: Layout) -> list[Line]:
     """List the stretches along which two pieces meet on a seam."""
     cut = layout.cut
-    along_cut = edge_keys(cut.cuts, len(cut.V))
     corner = cut.F.ravel()
+    ends = np.stack([corner, corner[next_halfedge(np.arange(len(corner)))]], 1)
+    on_seam = ~np.isin(edge_keys(ends, len(cut.V)), edge_keys(cut.cuts, len(cut.V)))
     lines = []
     for of_piece in borders(cut, layout.piece_of_face):
         for border in of_piece:
             if border.piece >= border.neighbour:
                 continue
             h = border.halfedges
-            start, end = corner[h], corner[next_halfedge(h)]
-            on_seam = ~np.isin(edge_keys(np.stack([start, end], 1), len(cut.V)), along_cut)
-            for run in np.split(np.arange(len(h)), np.flatnonzero(np.diff(on_seam)) + 1):
-                vertex = np.append(start[run], end[run[-1]])
+            for run in np.split(h, np.flatnonzero(np.diff(on_seam[h])) + 1):
+                vertex = np.append(ends[run, 0], ends[run[-1], 1])
                 if on_seam[run[0]] and len(run) >= SHORTEST and vertex[0] != vertex[-1]:
                     lines.append(Line(vertex, border.piece, border.neighbour))
     return lines

@@ -11,6 +11,7 @@ from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
 from meshjig.progress import Stages
+from meshjig.seam_lines import even_seams
 from meshjig.seamed import knobs_over_seams
 from meshjig.sizing import TileChoice, choose_tiles
 from meshjig.stitch import region_graph, stitch
@@ -93,9 +94,9 @@ def _cut(
 
 
 def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
-    """Give pieces that meet along a seam their knobs, drawn anew at every turn."""
+    """Even out seams and give pieces that meet along them their knobs, drawn anew at every turn."""
     with stages("seams"):
-        return knobs_over_seams(layout, options, _random(options), options.seed + turn)
+        return knobs_over_seams(even_seams(layout), options, _random(options), options.seed + turn)
 
 
 def _random(options: Options) -> float:

@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cells.march import NEAR, cut_faces
+from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
 from meshjig.cells.power import Field
-from meshjig.measure import unit, vertex_normals
-from meshjig.topology import Edges, edges
+from meshjig.measure import face_areas, sums, unit, vertex_normals
+from meshjig.topology import Edges, components, edges
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Evened", "Line", "even_borders"]
@@ -16,6 +16,7 @@ _SWEEPS = 24  # of averaging: it reaches over about five edges
 _FARTHEST = 1.2  # edges that a line may move
 _RINGS = 2  # faces on either side of a line that it may move through
 _ROUNDS = 8
+_NOTHING = Field(np.zeros((1, 1), np.int64), np.zeros((1, 1)))  # never asked: no three cells meet in a face
 
 
 class Line(NamedTuple):
@@ -52,17 +53,17 @@ def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
     Evened
     """
     e = edges(F)
-    owner, value, free = _sides(V, F, e, cell, lines)
-    a, b = e.E.T
-    differ = np.flatnonzero(~free[a] & ~free[b] & (owner[a] != owner[b]))
-    along = np.full(len(e.E), 0.5)
-    u, v = np.abs(value[a[differ]]), np.abs(value[b[differ]])
-    along[differ] = np.clip(u / np.maximum(u + v, 1e-12), NEAR, 1 - NEAR)
-    none = Field(np.zeros((len(V), 1), np.int64), np.zeros((len(V), 1)))
-    cut = cut_faces(V, F, e, owner, free, none, along)
-    all_free = free[F].all(1)[cut.parent]
-    label = np.where(all_free, cell[cut.parent], cut.cell)
-
+    held = np.zeros(len(V), bool)
+    for _ in range(_ROUNDS):
+        owner, value, free = _sides(V, F, e, cell, lines, held)
+        differ, along = _crossings(e, owner, value, free)
+        cut = cut_faces(V, F, e, owner, free, _NOTHING, along)
+        whole = free[F].all(1)[cut.parent]
+        cut = cut._replace(cell=np.where(whole, cell[cut.parent], cut.cell))
+        bad = _strays(cut) | pinched(cut)[cut.F].any(1)
+        if not bad.any():
+            break
+        held[F[cut.parent[bad]].ravel()] = True
     face, bary = np.empty(len(cut.V), np.int64), np.zeros((len(cut.V), 3))
     for k in range(3):
         face[F[:, k]] = np.arange(len(F))
@@ -71,15 +72,42 @@ def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
     first[e.edge_of_halfedge[::-1]] = np.arange(3 * len(F))[::-1]
     h, new = first[differ], len(V) + np.arange(len(differ))
     face[new] = h // 3
-    t = np.where(F.ravel()[h] == a[differ], along[differ], 1 - along[differ])
+    t = np.where(F.ravel()[h] == e.E[differ, 0], along[differ], 1 - along[differ])
     bary[new, h % 3], bary[new, (h + 1) % 3] = 1 - t, t
-    return Evened(cut.V, cut.F, cut.parent, label, face, bary)
+    return Evened(cut.V, cut.F, cut.parent, cut.cell, face, bary)
+
+
+def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints, Floats]:
+    """Give the edges that lines cross, and where along every edge (0 to 1) they do."""
+    a, b = e.E.T
+    differ = np.flatnonzero(~free[a] & ~free[b] & (owner[a] != owner[b]))
+    along = np.full(len(e.E), 0.5)
+    u, v = np.abs(value[a[differ]]), np.abs(value[b[differ]])
+    along[differ] = np.clip(u / np.maximum(u + v, 1e-12), NEAR, 1 - NEAR)
+    return differ, along
+
+
+def _strays(cut: Marched) -> Bools:
+    """Mark faces that are cut off from the rest of their cell, (m,)."""
+    n, part = components(cut.F, cut.cell[np.arange(3 * len(cut.F)) // 3] != cut.cell[cut.e.twin // 3])
+    size = sums(part, face_areas(cut.V, cut.F), n)
+    cell = np.empty(n, np.int64)
+    cell[part] = cut.cell
+    order = np.argsort(size, kind="stable")
+    largest = np.full(int(cell.max()) + 1, -1)
+    largest[cell[order]] = order
+    out: Bools = largest[cut.cell] != part
+    return out
 
 
 def _sides(
-    V: Floats, F: Ints, e: Edges, cell: Ints, lines: list[Line]
+    V: Floats, F: Ints, e: Edges, cell: Ints, lines: list[Line], held: Bools
 ) -> tuple[Ints, Floats, Bools]:
-    """Tell which cell every vertex belongs to, how far it is from the line there, and which have none."""
+    """Tell which cell every vertex belongs to, how far it is from the line there, and which have none.
+
+    Lines go through the held vertices (n,) that they went through before, and past all other held ones on
+    the same side as before.
+    """
     n = len(V)
     twin = e.twin
     h = np.arange(len(twin))
@@ -96,7 +124,7 @@ def _sides(
     free[inner] = False
     fixed_edge = border & ~(inner[a] | inner[b])
     beside = fixed_edge[e.edge_of_halfedge].reshape(-1, 3).any(1)
-    held = np.zeros(n, bool)
+    held = held.copy()
     held[F[beside].ravel()] = True  # else another cell would come to touch the border there
     free |= held & inner
 
@@ -114,10 +142,13 @@ def _sides(
         at = np.flatnonzero((near == i) & ~free)
         own = np.isin(home[at], [line.left, line.right])
         at = at[own | inner[at]]
-        off = _offset(V[at], N[at], _smoothed(V[line.vertex]))
-        stays = (held[at] | (depth[at] == _RINGS)) & ~inner[at]
+        x = V[line.vertex]
+        off = _offset(V[at], N[at], _smoothed(x))
+        least = NEAR * float(np.linalg.norm(np.diff(x, axis=0), axis=1).mean())
+        free[at[inner[at] & (np.abs(off) < least)]] = True
         sign = np.where(home[at] == line.left, 1.0, -1.0)
-        off = np.where(stays & (off * sign <= 0), 1e-3 * sign, off)
+        stays = held[at] | (depth[at] == _RINGS) | (np.abs(off) < least)
+        off = np.where(~inner[at] & stays, sign * np.maximum(off * sign, least), off)
         owner[at], value[at] = np.where(off > 0, line.left, line.right), off
     pairs = np.array([[line.left, line.right] for line in lines], np.int64).reshape(-1, 2)
     for _ in range(_ROUNDS):
