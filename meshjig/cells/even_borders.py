@@ -58,10 +58,10 @@ def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
         owner, value, free = _sides(V, F, e, cell, lines, held)
         differ, along = _crossings(e, owner, value, free)
         cut = cut_faces(V, F, e, owner, free, _NOTHING, along)
-        whole = free[F].all(1)[cut.parent]
+        whole = free[F[cut.parent]].all(1)
         cut = cut._replace(cell=np.where(whole, cell[cut.parent], cut.cell))
-        bad = _strays(cut) | pinched(cut)[cut.F].any(1)
-        if not bad.any():
+        bad = np.flatnonzero(_strays(cut) | np.any(pinched(cut)[cut.F], axis=1))
+        if not len(bad):
             break
         held[F[cut.parent[bad]].ravel()] = True
     face, bary = np.empty(len(cut.V), np.int64), np.zeros((len(cut.V), 3))

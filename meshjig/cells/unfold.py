@@ -45,7 +45,8 @@ def unfolded(p: Patches, uv: Floats) -> Floats:
         if not fold.any():
             break
         if turn:
-            fold = np.isin(p.F, p.F[fold]).any(1)
+            around = np.isin(p.F, p.F[fold])
+            fold = around[:, 0] | around[:, 1] | around[:, 2]
         free[p.F[fold]] = True
         moving = np.flatnonzero(free & inner)
         if not len(moving):
