@@ -26,7 +26,8 @@ log = logging.getLogger("meshjig")
 LONG = 0.3  # edges of a mean piece: shorter borders need no knob
 MOSTLY = 0.5  # of a border: a border is a seam's when that much of it lies on seams
 HEAD = 0.37  # edges of a mean piece: the usual width of a head on a seam
-SIZES = (0.5, 1.3)  # relative to that, for the sake of looking like the tiles' own
+OF_NECK = 2.4  # least necks: the width of a head at which a knob may still be made smaller for want of room
+SIZES = (0.5, 1.4)  # relative to the usual width, for the sake of looking like the tiles' own
 
 
 def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int) -> Layout:
@@ -56,14 +57,14 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
     number[piece_of_cell] = np.arange(len(piece_of_cell))
     between = number[pairs]
     between = between[(between >= 0).all(1)]
-    n_knobs = 0
+    n_knobs, least_neck = 0, options.min_neck + options.clearance
     if len(between):
         atlas = cell_atlas(cells, _in_plane(layout, chosen))
         knobs = knob_outlines(
             atlas,
             size=size,
-            knob_size=_like_the_others(locks, size) * options.knob_size,
-            min_neck=options.min_neck + options.clearance,
+            knob_size=_like_the_others(locks, size, least_neck) * options.knob_size,
+            min_neck=least_neck,
             random=random,
             seed=seed,
             between=between,
@@ -124,11 +125,13 @@ def _in_plane(layout: Layout, chosen: Ints) -> Floats:
     return interpolate(atlas.uv, atlas.F_uv, parent, bary).reshape(-1, 3, 2)
 
 
-def _like_the_others(locks: Interlock, size: float) -> float:
-    """Give the size of knobs, relative to the usual one, at which they look like those there are."""
-    if not len(locks.head):
-        return 1.0
-    return float(np.clip(np.median(locks.head) / (HEAD * size), *SIZES))
+def _like_the_others(locks: Interlock, size: float, least_neck: float) -> float:
+    """Give the size of knobs, relative to the usual one, at which they look like those there are.
+
+    They are larger where they have to be for their necks.
+    """
+    head = float(np.median(locks.head)) if len(locks.head) else HEAD * size
+    return float(np.clip(max(head, OF_NECK * least_neck) / (HEAD * size), *SIZES))
 
 
 def _with_more(knobs: Knobs, more: Knobs, further: Further, n_segments: int) -> Knobs:
