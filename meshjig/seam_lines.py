@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.cells.discs import DISC, shapes
-from meshjig.cells.even_borders import Line, even_borders
+from meshjig.cells.even_borders import Evened, Line, even_borders
 from meshjig.check.congruent import borders
 from meshjig.layout import Layout
 from meshjig.recut import recut
@@ -73,7 +73,7 @@ def _evened(layout: Layout, lines: list[Line]) -> Layout:
     made = even_borders(
         cut.V[kept], F, piece[chosen], [line._replace(vertex=number[line.vertex]) for line in lines]
     )
-    nothing: Ints = np.zeros(0, np.int64)
+    cuts = _new_borders(F, piece[chosen], made)
     second = CutMesh(
         V=made.V,
         F=made.F,
@@ -82,9 +82,25 @@ def _evened(layout: Layout, lines: list[Line]) -> Layout:
         region=made.cell,
         vertex_face=made.vertex_face,
         vertex_bary=made.vertex_bary,
-        point_vertex=nothing,
-        cuts=nothing.reshape(0, 2),
-        cut_segment=nothing,
-        cut_param=np.zeros((0, 2)),
+        point_vertex=np.zeros(0, np.int64),
+        cuts=cuts,
+        cut_segment=np.arange(len(cuts)),
+        cut_param=np.tile([0.0, 1.0], (len(cuts), 1)),
     )
     return recut(layout, chosen, kept, second, np.arange(layout.stitching.n_pieces))[0]
+
+
+def _new_borders(F: Ints, cell: Ints, made: Evened) -> Ints:
+    """List the edges (c, 2) between two cells that were no such edges before, a cell on their left."""
+    n = len(made.V)
+    ends = _between(made.F, made.cell)
+    return ends[~np.isin(edge_keys(ends, n), edge_keys(_between(F, cell), n))]
+
+
+def _between(F: Ints, cell: Ints) -> Ints:
+    """List the edges (c, 2) between two cells, a cell on their left."""
+    twin = edges(F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    h = h[cell[h // 3] != cell[twin[h] // 3]]
+    corner = F.ravel()
+    return np.stack([corner[h], corner[next_halfedge(h)]], 1)

@@ -15,6 +15,7 @@ from meshjig.layout import Layout
 from meshjig.measure import barycentric, face_areas, interpolate
 from meshjig.options import Options
 from meshjig.recut import recut
+from meshjig.seam_lines import even_seams
 from meshjig.stitch import region_graph
 from meshjig.topology import compact, edges
 from meshjig.types import Floats, Ints, Knobs, Mesh
@@ -31,7 +32,7 @@ SIZES = (0.5, 1.4)  # relative to the usual width, for the sake of looking like 
 
 
 def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int) -> Layout:
-    """Give pieces that meet along a seam a knob where there is room for one.
+    """Even out seams, and give pieces that meet along one a knob where there is room for it.
 
     The pieces on both sides are taken for cells: each is flattened by itself, knobs are laid out in
     these planes clear of the pieces' other borders and knobs, and the surface is cut once more.
@@ -52,6 +53,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
     locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
     size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
     pairs = _plain_over_seams(layout, locks, LONG * size)
+    layout = even_seams(layout)
     piece_of_cell, cells, chosen, kept = _as_cells(layout, pairs)
     number = np.full(layout.stitching.n_pieces, -1)
     number[piece_of_cell] = np.arange(len(piece_of_cell))

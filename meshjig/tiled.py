@@ -11,7 +11,6 @@ from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
 from meshjig.progress import Stages
-from meshjig.seam_lines import even_seams
 from meshjig.seamed import knobs_over_seams
 from meshjig.sizing import TileChoice, choose_tiles
 from meshjig.stitch import region_graph, stitch
@@ -96,7 +95,7 @@ def _cut(
 def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
     """Even out seams and give pieces that meet along them their knobs, drawn anew at every turn."""
     with stages("seams"):
-        return knobs_over_seams(even_seams(layout), options, _random(options), options.seed + turn)
+        return knobs_over_seams(layout, options, _random(options), options.seed + turn)
 
 
 def _random(options: Options) -> float:

@@ -34,7 +34,6 @@ def layouts(atlas, **asked):
     layout = tile_layout(atlas, options, Stages())
     with pytest.MonkeyPatch.context() as context:
         context.setattr(meshjig.tiled, "knobs_over_seams", lambda layout, *_: layout)
-        context.setattr(meshjig.tiled, "even_seams", lambda layout: layout)
         return options, layout, tile_layout(atlas, options, Stages())
 
 
