@@ -13,6 +13,7 @@ from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
 from meshjig.progress import Stages
+from meshjig.seamed import knobs_over_seams
 from meshjig.sizing import TileChoice, choose_tiles
 from meshjig.stitch import region_graph, stitch
 from meshjig.tiling import Unit, tile_surface
@@ -39,7 +40,7 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     ----------
     atlas : Atlas
     options : Options
-    stages : Stages, hears of tiling, cut and stitch
+    stages : Stages, hears of tiling, cut, stitch and seams
     """
     unit = get_family(options.tile, options.seed, _columns(atlas, options))
     wanted, angle = options.pieces, options.angle
@@ -61,7 +62,7 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
         wanted = max(1, round(wanted * options.pieces / n))
     best = int(np.argmin([abs(layout.stitching.n_pieces - options.pieces) for layout in tried]))
     if not options.unique:
-        return tried[best]
+        return _finished(tried[best], options, stages)
     return _without_clashes(tried[best], atlas, unit, chosen[best], least_border, options, stages)
 
 
@@ -82,7 +83,7 @@ def _cut(
             unit=unit,
             placings=choice.placings,
             min_neck=least_border,
-            random=max(options.random, DIFFERENT if options.unique else 0.0),
+            random=_random(options),
             random_style=options.random_style,
             seed=options.seed,
             turns=turns,
@@ -101,6 +102,16 @@ def _cut(
     return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)
 
 
+def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
+    """Even out seams and give pieces that meet along them their knobs, drawn anew at every turn."""
+    with stages("seams"):
+        return knobs_over_seams(layout, options, _random(options), options.seed + turn)
+
+
+def _random(options: Options) -> float:
+    return max(options.random, DIFFERENT if options.unique else 0.0)
+
+
 def _without_clashes(
     layout: Layout,
     atlas: Atlas,
@@ -113,7 +124,8 @@ def _without_clashes(
     """Draw knobs anew for as long as borders look alike."""
     turns = np.zeros(0, np.int64)
     best, fewest = layout, np.inf
-    for _ in range(REDRAWN):
+    for turn in range(REDRAWN):
+        layout = _finished(layout, options, stages, turn)
         with stages("unique"):
             edges, facts = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))
         log.info("unique: %s", facts)

@@ -93,7 +93,7 @@ class Knobs:
     neck: Ints  # (k, 2), the points on either side of the neck
     head: Ints  # (k, 2), the points on either side of the head, where it is widest
     span: Ints  # (k, 2), first segment of the knob, and the one after its last
-    edge: Ints | None = None  # (k,), which edge of the tiling has the knob
+    edge: Ints | None = None  # (k,), which edge of the tiling has the knob; -1 for none
 
 
 @dataclass(frozen=True)

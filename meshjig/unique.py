@@ -51,4 +51,5 @@ def _edges_on(of: list[Border], cut: CutMesh, knobs: Knobs) -> Ints:
     segment = np.zeros(max(int(cut.cut_segment.max(initial=0)), int(knobs.span.max())) + 2, np.int64)
     segment[cut.cut_segment[on_border]] = 1
     before = np.concatenate([[0], np.cumsum(segment)])
-    return np.unique(knobs.edge[before[knobs.span[:, 1]] > before[knobs.span[:, 0]]])
+    found = np.unique(knobs.edge[before[knobs.span[:, 1]] > before[knobs.span[:, 0]]])
+    return found[found >= 0]

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from meshjig.topology import edges
+from meshjig.topology import edge_keys, edges
 from meshjig.types import Atlas, Bools, Floats, Ints
 
 __all__ = ["Borders", "cell_borders", "places_along"]
@@ -34,6 +34,21 @@ class Borders(NamedTuple):
     def mm(self) -> Floats:
         """Give the length of sides in the plane, (e,)."""
         return self.along[self.span[:, 1]] - self.along[self.span[:, 0]]
+
+    def between(self, pairs: Ints) -> "Borders":
+        """Give those between some pairs (k, 2) of cells, whichever comes first; loops stay whole."""
+        n = int(max(self.rim_cell.max(initial=0), pairs.max(initial=0))) + 1
+        wanted = np.isin(edge_keys(self.cell[self.sides], n), edge_keys(pairs, n))
+        kept = np.flatnonzero(wanted[self.border])
+        number = np.cumsum(wanted[self.border]) - 1
+        return self._replace(
+            span=self.span[kept],
+            rim=self.rim[kept],
+            cell=self.cell[kept],
+            border=(np.cumsum(wanted) - 1)[self.border[kept]],
+            sides=number[self.sides[wanted]],
+            length=self.length[wanted],
+        )
 
     def opposite(self, side: Ints) -> Ints:
         """Give the other sides of the same borders, (k,)."""

@@ -49,9 +49,6 @@ def knob_loops(borders: Borders, shapes: Shapes, c: Curves) -> tuple[Outlines, K
 
 
 def _frame(rim: Floats) -> Floats:
-    """Draw a line around a loop (k, 2), anticlockwise, without its first point once more."""
-    import shapely
-
-    around = shapely.buffer(shapely.make_valid(shapely.polygons(rim)), _AROUND, quad_segs=2)
-    ring = shapely.get_coordinates(shapely.get_exterior_ring(around))[:-1]
-    return ring if shapely.is_ccw(shapely.get_exterior_ring(around)) else ring[::-1]
+    """Draw a box around a loop (k, 2), anticlockwise; cells are far enough apart for it."""
+    (left, low), (right, high) = rim.min(0) - _AROUND, rim.max(0) + _AROUND
+    return np.array([[left, low], [right, low], [right, high], [left, high]])

@@ -56,6 +56,7 @@ def knob_outlines(
     crease_aware: bool = False,
     seed: int = 0,
     like: KnobLayout | None = None,
+    between: Ints | None = None,
 ) -> KnobLayout:
     """Put a knob on every border between two cells where one fits.
 
@@ -76,6 +77,8 @@ def knob_outlines(
     like : KnobLayout, optional
         Of nearly the same cells: knobs shall enter the same ones again, so that cells which were made
         larger or smaller for their knobs' sake keep them.
+    between : (k, 2) int64, optional
+        Pairs of cells: no borders but theirs get a knob; all others count as what knobs keep clear of.
 
     Returns
     -------
@@ -90,6 +93,8 @@ def knob_outlines(
     """
     rng = np.random.default_rng(seed)
     borders = cell_borders(atlas)
+    if between is not None:
+        borders = borders.between(between)
     wish = Wish(size, knob_size, random)
     room = _room(atlas, borders, wish, min_neck, rng)
     found = candidates(room, wish, rng)

@@ -10,7 +10,7 @@ from meshjig.cells.surface import Surface
 from meshjig.topology import Edges, edges
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["Marched", "march"]
+__all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched"]
 
 NEAR = 0.06  # of an edge: a border that passes a vertex closer than this goes through it
 _STEEP = 0.7  # the same for a vertex on a crease that borders should follow
@@ -48,9 +48,8 @@ def march(s: Surface, owner: Ints, field: Field) -> Marched:
     crossing, along = _crossings(e, owner, field)
     free = _snapped(F, e, np.where(s.steep, _STEEP, NEAR), crossing, along)
     for _ in range(_ROUNDS):
-        cut = _cut(V, F, e, owner, free, field, along)
-        pinched = _pinched(cut)
-        bad = np.flatnonzero(pinched[: len(V)] & free)
+        cut = cut_faces(V, F, e, owner, free, field, along)
+        bad = np.flatnonzero(pinched(cut)[: len(V)] & free)
         if not len(bad):
             break
         free[bad] = False
@@ -89,7 +88,7 @@ def _snapped(F: Ints, e: Edges, near: Floats, crossing: Ints, along: Floats) -> 
     return free
 
 
-def _cut(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Field, along: Floats) -> Marched:
+def cut_faces(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Field, along: Floats) -> Marched:
     """Split every face by the labels of its corners; free corners have none."""
     a, b = e.E.T
     crossed = ~free[a] & ~free[b] & (owner[a] != owner[b])
@@ -156,7 +155,7 @@ def _meeting(field: Field, F: Ints, owner: Ints) -> Floats:
     return bary / bary.sum(1, keepdims=True)
 
 
-def _pinched(cut: Marched) -> Bools:
+def pinched(cut: Marched) -> Bools:
     """Mark vertices at which the faces of one cell meet in more than one fan, (n,)."""
     twin, n = cut.e.twin, int(cut.cell.max(initial=0)) + 1
     h = np.arange(len(twin))

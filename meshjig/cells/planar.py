@@ -8,7 +8,9 @@ from meshjig.measure import area_vectors, face_areas, sums, unit
 from meshjig.topology import border_halfedges, compact, next_halfedge
 from meshjig.types import Bools, Floats, Ints
 
-__all__ = ["Patches", "folded", "patches", "projected", "rims", "scaled", "simple", "subset"]
+__all__ = ["Patches", "folded", "mirrored", "patches", "projected", "rims", "scaled", "simple", "subset"]
+
+_SLIVER = 0.01  # mm; faces of less height hardly matter
 
 
 class Patches(NamedTuple):
@@ -39,10 +41,19 @@ def projected(p: Patches) -> Floats:
     return np.stack([np.einsum("ij,ij->i", p.V, axis[p.of_vertex]) for axis in (x, y)], 1)
 
 
+def mirrored(p: Patches, uv: Floats) -> Bools:
+    """Tell which faces are mirrored or empty, (m,)."""
+    out: Bools = ~(face_areas(uv, p.F) > 1e-6 * face_areas(p.V, p.F))
+    return out
+
+
 def folded(p: Patches, uv: Floats) -> Bools:
-    """Tell which cells have a mirrored or empty face, (n,)."""
-    area, plane = face_areas(p.V, p.F), face_areas(uv, p.F)
-    out: Bools = np.bincount(p.cell, ~(plane > 1e-6 * area), minlength=p.n) > 0
+    """Tell which cells have a mirrored or empty face, unless it is hardly there, (n,)."""
+    fold = np.flatnonzero(mirrored(p, uv))
+    x = p.V[p.F[fold]]
+    longest = np.linalg.norm(x - x[:, [1, 2, 0]], axis=2).max(1)
+    thick = 2 * face_areas(p.V, p.F[fold]) > _SLIVER * longest
+    out: Bools = np.bincount(p.cell[fold], thick, minlength=p.n) > 0
     return out
 
 

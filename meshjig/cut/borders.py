@@ -64,6 +64,7 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
     follows = np.zeros(len(chosen), bool)
     if len(chosen):
         follows[1:] = cut.cuts[chosen[1:], 0] == cut.cuts[chosen[:-1], 1]
+        follows[1:] &= (np.abs(start[1:] - end[:-1]) < SAME_PLACE).all(1)  # not so over a seam
     return PlaneCurves(start, end, cut.parent[h[at[chosen]] // 3], follows)
 
 

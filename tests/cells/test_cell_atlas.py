@@ -71,3 +71,18 @@ def test_cells_that_fold_are_rescued():
     atlas = cell_atlas(ball)
     assert atlas.facts == {"rescued": 1, "flips": 0}
     assert singular_values(ball.mesh.V, ball.mesh.F, atlas.uv, atlas.F_uv).max() < 12
+
+
+def test_cells_that_lie_whole_in_a_plane_stay_as_they_are_there():
+    V, F = disc(2000)
+    cells = grow_cells(Mesh(V, F), 6)
+    plane = cells.mesh.V[:, :2] @ np.array([[0.0, 1.0], [-1.0, 0.0]]) * [1.1, 1.0]
+    known = plane[cells.mesh.F]
+    torn = cells.cell == 2
+    half = torn & (known.mean(1)[:, 0] > np.median(known[torn].mean(1)[:, 0]))
+    known[half] += [500.0, 0.0]  # a seam runs through this one
+    atlas = cell_atlas(cells, known)
+    stretch = singular_values(cells.mesh.V, cells.mesh.F, atlas.uv, atlas.F_uv)
+    as_known = singular_values(cells.mesh.V, cells.mesh.F, plane)
+    np.testing.assert_allclose(stretch[~torn], as_known[~torn] / np.sqrt(1.1), rtol=1e-6)
+    np.testing.assert_allclose(stretch[torn], 1.0, rtol=1e-6)

@@ -181,3 +181,15 @@ def test_another_layout_can_be_followed():
     sides = [{tuple(pair) for pair in layout.moved.tolist()} for layout in (before, alone, after)]
     assert len(sides[0] & sides[1]) < 20
     assert len(sides[0] & sides[2]) >= 23
+
+
+def test_only_the_borders_that_are_asked_for_get_a_knob():
+    atlas = SHEETS["waved"]
+    wanted = np.array([[1, 0], [5, 6], [9, 13]])
+    layout = knob_outlines(atlas, size=EDGE, between=wanted)
+    cut = overlay(atlas, layout.outlines)
+    found = interlock(cut, layout.knobs, cut.label)
+    assert found.pairs[found.knobs_of_pair > 0].tolist() == np.sort(wanted, axis=1).tolist()
+    np.testing.assert_array_equal(np.unique(cut.label), np.arange(16))
+    moved = np.abs(cell_areas(atlas) - np.bincount(cut.label, face_areas(cut.V, cut.F), 16)) > 1e-6
+    assert set(np.flatnonzero(moved)) <= set(wanted.ravel())
