@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.around import closed_around
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import cut_open
 from meshjig.charts.flatten import is_unflipped, unit_stretch
@@ -45,7 +46,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
     Returns
     -------
     list of Chart
-        Cut where the UVs are cut; mirrored islands are turned; the mean stretch of each is 1.
+        Cut where the UVs are cut; mirrored islands are turned; the mean stretch of each is 1. An island
+        whose cut joins two sides one way apart goes around: it has a period.
 
     Raises
     ------
@@ -70,7 +72,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
     total = sums(flat, weight, len(origin))
     uv = np.stack([sums(flat, weight * places[..., k].ravel(), len(origin)) / total for k in (0, 1)], 1)
     n_charts, chart = components(corners)
-    return [_chart(mesh, found, np.flatnonzero(chart == k), uv, corners, origin) for k in range(n_charts)]
+    charts = [_chart(mesh, found, np.flatnonzero(chart == k), uv, corners, origin) for k in range(n_charts)]
+    return [closed_around(chart, e) for chart in charts]
 
 
 def _hangs_together(F: Ints, e: Edges, island: Ints) -> bool:

@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SAME = 2.0**-30  # of the extent: vertices nearer than that, with equal UVs, are one
+_AS_LOADED = 1e-9  # of the extent: corners that near to the file's are those
 _INSET = 0.8  # of the way from a face's middle to its corners: what lies on a seam would belong to both sides
 
 
@@ -71,15 +72,19 @@ def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
         looks the same way
     uv : (m, 3, 2) float64, as the nearest face of that island would go on
     """
+    corners = V[F]
+    if len(F) == len(source.F) and np.abs(corners - source.V[source.F]).max() <= _AS_LOADED * np.ptp(V):
+        return source.island, source.uv[source.F]
     import igl
 
-    corners = V[F]
     middle = corners.mean(1)
     places = np.concatenate([middle[:, None] + _INSET * (corners - middle[:, None]), middle[:, None]], 1)
     _, near, _ = igl.point_mesh_squared_distance(places.reshape(-1, 3), source.V, source.F)
     near = near.reshape(-1, 4).astype(np.int64)
     N, M = area_vectors(V, F), area_vectors(source.V, source.F)
-    found = np.where(np.einsum("ij,ikj->ik", N, M[near]) >= 0, source.island[near], -1)
+    alike = np.einsum("ij,ikj->ik", N, M[near])
+    turned = -1 if np.sign(alike).mean() < 0 else 1  # a file may have been inside out
+    found = np.where(turned * alike >= 0, source.island[near], -1)
     votes = (found[:, :, None] == found[:, None, :]).sum(2) * (found >= 0)
     votes[:, 3] *= 2  # the middle decides between equals
     island = np.take_along_axis(found, votes.argmax(1)[:, None], 1)[:, 0]

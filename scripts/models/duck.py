@@ -3,7 +3,8 @@
 import numpy as np
 import trimesh
 
-from models.rings import rounded, swept
+from models.patches import flipped, joined, mean_girth, meshed, spread, tube, turns, wheel
+from models.rings import rounded
 
 __all__ = ["duck"]
 
@@ -19,6 +20,8 @@ _OVALS = np.array(
     float,
 )  # fmt: skip
 
+_CAP = 90.0  # mm around, below which an end is a cap
+
 
 def duck(around: int = 160, along: int = 170) -> trimesh.Trimesh:
     """Loft the ovals, 150 mm from tail to bill or so; closed, with a singular tip at either end; y is up."""
@@ -29,12 +32,17 @@ def duck(around: int = 160, along: int = 170) -> trimesh.Trimesh:
     arc = np.append(0.0, np.cumsum(weight))
     at = np.linspace(0, arc[-1], along)
     x, y, wide, high, lean = (np.interp(at, arc, column) for column in smooth.T)
-    angle = 2 * np.pi * np.arange(around) / around
+    angle = -2 * np.pi * np.arange(around) / around
     across = np.cos(angle) * wide[1:-1, None]
     up = np.sin(angle) * high[1:-1, None]
     tilt = np.radians(lean)[1:-1, None]
     rings = np.stack([x[1:-1, None] + up * np.sin(tilt), y[1:-1, None] + up * np.cos(tilt), across], -1)
-    mesh = swept(rings, np.array([x[0], y[0], 0]), np.array([x[-1], y[-1], 0]))
-    if mesh.volume < 0:
-        mesh.invert()
-    return mesh
+    girth = np.linalg.norm(rings - np.roll(rings, -1, 1), axis=2).sum(1)
+    whole = np.flatnonzero(girth > _CAP)
+    first, last = int(whole[0]), int(whole[-1])
+    tail = wheel(rings[: first + 1], np.array([x[0], y[0], 0]), angle)
+    bill = wheel(rings[: last - 1 : -1], np.array([x[-1], y[-1], 0]), angle)
+    body = rings[first : last + 1]
+    way = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(body, axis=0), axis=2).mean(1)))
+    mean = mean_girth(body, way)
+    return meshed(joined([flipped(tail), tube(body, mean * turns(body), spread(body, way, mean)), bill]))
