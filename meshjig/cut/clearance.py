@@ -12,9 +12,11 @@ from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 __all__ = ["gap_outlines"]
 
 WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
-STRAIGHT = 2e-4  # mm, that a border may be off when it is drawn with fewer points
+STRAIGHT = 0.01  # of the clearance, that a border may be off when it is drawn with fewer points
+SIMPLE = {"stretch": 0.02, "domain": 0.05}  # of the clearance, that the band's rim may be off
+DISC = 5  # the same, of a disc beyond a seam
 WIDEST = 1.7  # times the half clearance, on either side of a crease
-ARC = 5  # corners of a quarter circle
+ARC = {"stretch": 5, "domain": 2}  # corners of a quarter circle
 
 
 def gap_outlines(
@@ -61,12 +63,12 @@ def gap_outlines(
     seam_curves, row = along_seams(seams)
     shapes = np.concatenate(
         [
-            _buffered(curves, curve_width, clearance),
-            _buffered(seam_curves, seam_width[row], clearance),
+            _buffered(curves, curve_width, clearance, ARC[method]),
+            _buffered(seam_curves, seam_width[row], clearance, ARC[method]),
             _carried_over(cut, curves, seams, seam_width, clearance),
         ]
     )
-    return _as_outlines(shapely.simplify(shapely.union_all(shapes), clearance / 100), clearance)
+    return _as_outlines(_simple(shapely.union_all(shapes), SIMPLE[method] * clearance), clearance)
 
 
 def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: float, method: str) -> Floats:
@@ -84,7 +86,7 @@ def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
     return 1 / np.sqrt(np.clip((1 + cos) / 2, WIDEST**-2, 1))
 
 
-def _buffered(curves: PlaneCurves, width: Floats, clearance: float) -> np.ndarray:
+def _buffered(curves: PlaneCurves, width: Floats, clearance: float, arc: int) -> np.ndarray:
     """Buffer runs of stretches that follow each other and have nearly the same width."""
     import shapely
 
@@ -103,7 +105,16 @@ def _buffered(curves: PlaneCurves, width: Floats, clearance: float) -> np.ndarra
     order = np.argsort(line, kind="stable")
     lines = shapely.linestrings(points[order], indices=line[order])
     half = clearance / 2 * np.exp(step[first] * WIDTH_STEP)
-    return shapely.buffer(shapely.simplify(lines, STRAIGHT), half, quad_segs=ARC)
+    lines = shapely.simplify(lines, STRAIGHT * clearance, preserve_topology=False)
+    return shapely.buffer(lines, half, quad_segs=arc)
+
+
+def _simple(band: Any, tolerance: float) -> Any:
+    """Draw a band with fewer points; the quick way hardly ever makes rims cross, and then it won't do."""
+    import shapely
+
+    quick = shapely.simplify(band, tolerance, preserve_topology=False)
+    return quick if shapely.is_valid(quick) else shapely.simplify(band, tolerance)
 
 
 def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
@@ -138,7 +149,7 @@ def _carried_over(
     row, t = row[near], t[near]
     mate = seams.mate[row]
     beyond = seams.end[mate] + (seams.start[mate] - seams.end[mate]) * t[:, None]
-    return shapely.buffer(shapely.points(beyond), left[near] * width[mate] * 2 / clearance, quad_segs=ARC)
+    return shapely.buffer(shapely.points(beyond), left[near] * width[mate] * 2 / clearance, quad_segs=DISC)
 
 
 def _samples(direction: Floats, step: float) -> tuple[Ints, Floats]:

@@ -83,7 +83,9 @@ def _around_base(X: np.ndarray) -> np.ndarray:
         back = np.minimum(side, x) + _CORNER * np.clip(bend, 0, np.pi / 2)
         quarter = x + _CORNER * np.pi / 2 + z
         flat = z - np.minimum(np.abs(P[..., 2]), z)
-        far = np.where(np.abs(P[..., 2]) < z, quarter - z + flat, np.where(side > x, back, np.minimum(side, x)))
+        far = np.where(
+            np.abs(P[..., 2]) < z, quarter - z + flat, np.where(side > x, back, np.minimum(side, x))
+        )
         far = np.where(P[..., 2] > 0, 2 * quarter - far, far)
         return np.where(P[..., 0] < 0, -far, far)
 

@@ -3,7 +3,19 @@
 import numpy as np
 import trimesh
 
-from models.patches import Patch, flipped, joined, mean_girth, meshed, solid, spread, tube, turns, unsolid, wheel
+from models.patches import (
+    Patch,
+    flipped,
+    joined,
+    mean_girth,
+    meshed,
+    solid,
+    spread,
+    tube,
+    turns,
+    unsolid,
+    wheel,
+)
 
 __all__ = ["teapot"]
 
