@@ -1,9 +1,12 @@
 """A solid by Boolean operations: a swept base, an upright disc, a hyperbolic hole, an extruded cut."""
 
+from typing import Any
+
 import numpy as np
 import trimesh
 
-from models.patches import Patch, meshed, parted
+from models.patches import flipped, joined, meshed, parted, solid, tube, wheel
+from models.rings import even
 
 __all__ = ["bridge"]
 
@@ -15,40 +18,89 @@ _ARCH = 26.0  # mm, radius of the cut
 _EVEN = 0.5  # how far tiles on narrow parts of turned surfaces keep their shape
 
 
-def bridge(step: float = 2.2) -> trimesh.Trimesh:
+def bridge(step: float = 1.6) -> trimesh.Trimesh:
     """Build it of four surfaces that meet in creases; closed, 150 mm long; y is up.
 
     Each surface brings its own parameters: ways along the outlines that were swept or turned.
     """
-    from manifold3d import CrossSection, Manifold
-
-    corners = CrossSection.square([_LENGTH - 2 * _CORNER, _DEPTH - 2 * _CORNER], True)
-    outline = corners.offset(_CORNER, circular_segments=96)
-    base = Manifold.extrude(outline, _HEIGHT)
-    disc = Manifold.revolve(CrossSection([_rim()]), 240)
-    t = np.linspace(-40, 40, 60)
-    half = np.vstack([[[0, -40]], np.stack([_hyperbola(t), t], 1), [[0, 40]]])
-    hole = Manifold.revolve(CrossSection([half]), 200)
-    arch = _ARCH * np.stack([np.cos(np.linspace(0, np.pi, 90)), np.sin(np.linspace(0, np.pi, 90))], 1)
-    gate = np.vstack([[[_ARCH, -10]], arch, [[-_ARCH, -10]]])
-    cut = Manifold.extrude(CrossSection([gate]), 120)
-    surfaces = {
-        base.original_id(): _on_base,
-        disc.original_id(): _on_disc,
-        hole.original_id(): _in_hole,
-        cut.original_id(): _under_arch,
-    }
-    whole = base.rotate([-90, 0, 0]) + disc.translate([0, _AXIS, 0])
-    whole = whole - hole.translate([0, _AXIS, 0]) - cut.translate([0, 0, -60])
-    mesh = whole.refine_to_length(step).to_mesh()
-    V = np.asarray(mesh.vert_properties, np.float64)[:, :3]
-    F = np.asarray(mesh.tri_verts, np.int64)
+    base, disc, hole, cut = _base(step), _disc(step), _hole(), _cut(step)
+    names = [int(part.to_mesh().run_original_id[0]) for part in (base, disc, hole, cut)]
+    surfaces = dict(zip(names, (_on_base, _on_disc, _in_hole, _under_arch), strict=True))
+    mesh = (base + disc - hole - cut).to_mesh()
+    V = np.asarray(mesh.vert_properties, np.float64)
+    V = V[_first(len(V), mesh), :3]
+    F = _first(len(V), mesh)[np.asarray(mesh.tri_verts, np.int64)]
     starts = np.asarray(mesh.run_index, np.int64) // 3
     uv = np.empty((len(F), 3, 2))
     for k, name in enumerate(mesh.run_original_id):
         run = slice(int(starts[k]), int(starts[k + 1]))
-        uv[run] = surfaces[int(name)](V[F[run]]) + [1000.0 * list(surfaces).index(int(name)), 0.0]
+        uv[run] = surfaces[int(name)](V[F[run]]) + [1000.0 * names.index(int(name)), 0.0]
     return meshed(parted(V, F, uv))
+
+
+def _first(n: int, mesh: Any) -> np.ndarray:
+    """Give the first of the vertices that are one in space."""
+    first = np.arange(n)
+    first[np.asarray(mesh.merge_from_vert)] = np.asarray(mesh.merge_to_vert)
+    return first
+
+
+def _base(step: float) -> Any:
+    """Sweep a rounded outline upward, in faces as long as a step."""
+    x, z = _LENGTH / 2 - _CORNER, _DEPTH / 2 - _CORNER
+    a = np.linspace(0, np.pi / 2, 25)
+    arcs = [
+        [sx * x, sz * z] + _CORNER * np.stack([np.cos(a + turn), np.sin(a + turn)], 1)
+        for (sx, sz), turn in zip([(1, 1), (-1, 1), (-1, -1), (1, -1)], np.arange(4) * np.pi / 2, strict=True)
+    ]
+    outline = np.vstack([*arcs, arcs[0][:1]])
+    n = int(np.linalg.norm(np.diff(outline, axis=0), axis=1).sum() / step)
+    outline = even(outline, n + 1)[-2::-1]  # clockwise in (x, z): counterclockwise seen from above
+    heights = np.linspace(0, _HEIGHT, int(_HEIGHT / step) + 1)
+    rings = np.stack([np.insert(outline, 1, y, axis=1) for y in heights])
+    shrunk = np.linspace(0, 1, int(_LENGTH / 2 / step) + 1)[1:, None, None] * [1, 0, 1]
+    low, high = (shrunk * ring + [0, ring[0, 1], 0] for ring in rings[[0, -1]])
+    angle = 2 * np.pi * np.arange(n) / n
+    side = tube(rings, np.arange(n + 1.0), heights)
+    bottom, top = (wheel(lid, np.array([0, lid[0, 0, 1], 0]), angle) for lid in (low, high))
+    return solid(joined([side, flipped(bottom), top]))
+
+
+def _disc(step: float) -> Any:
+    """Turn a rim about the axis, in faces as long as a step."""
+    outline = _rim()
+    flat = np.arange(_RIM - _SOFT - step, 10, -step)
+    front = np.stack([flat[::-1], np.full(len(flat), -_THICK)], 1)
+    rim = np.linspace(*outline[16:18, 1], int(2 * (_THICK - _SOFT) / step) + 1)[1:-1]
+    rim = np.stack([np.full(len(rim), _RIM), rim], 1)
+    return _turned(np.vstack([front, outline[1:17], rim, outline[17:-1], front[::-1] * (1, -1)]), 140)
+
+
+def _hole() -> Any:
+    t = np.linspace(-40, 40, 60)
+    return _turned(np.stack([_hyperbola(t), t], 1), 80)
+
+
+def _turned(profile: np.ndarray, around: int) -> Any:
+    """Turn a profile of radius and place about the axis, and close its ends."""
+    angle = 2 * np.pi * np.arange(around) / around
+    x, y = profile[:, :1] * np.cos(angle), profile[:, :1] * np.sin(angle) + _AXIS
+    rings = np.stack([x, y, np.broadcast_to(profile[:, 1:], x.shape)], -1)
+    ends = [wheel(ring[None], ring.mean(0), angle) for ring in rings[[0, -1]]]
+    wall = tube(rings, np.arange(around + 1.0), np.arange(len(rings), dtype=float))
+    return solid(joined([wall, flipped(ends[0]), ends[1]]))
+
+
+def _cut(step: float) -> Any:
+    """Sweep an arch along z, in faces as long as a step."""
+    a = np.linspace(0, np.pi, int(np.pi * _ARCH / step) + 1)
+    arch = _ARCH * np.stack([np.cos(a), np.sin(a)], 1)
+    gate = np.vstack([[[_ARCH, -10]], arch, [[-_ARCH, -10]]])
+    places = np.linspace(-60, 60, int(120 / step) + 1)
+    rings = np.stack([np.insert(gate, 2, z, axis=1) for z in places])
+    ends = [wheel(ring[None], ring.mean(0), np.arange(len(gate)) * 2 * np.pi / len(gate)) for ring in rings[[0, -1]]]
+    wall = tube(rings, np.arange(len(gate) + 1.0), places)
+    return solid(joined([wall, flipped(ends[0]), ends[1]]))
 
 
 def _rim() -> np.ndarray:

@@ -6,7 +6,8 @@ import numpy as np
 import trimesh
 
 __all__ = [
-    "Patch", "flat", "flipped", "joined", "mean_girth", "meshed", "parted", "solid", "spread", "strip", "tube", "turns", "unsolid", "wheel",
+    "Patch", "flat", "flipped", "joined", "mean_girth", "meshed", "parted", "solid", "spread", "tube", "turns",
+    "unsolid", "wheel",
 ]  # fmt: skip
 
 _APART = 20.0  # mm, between islands
@@ -27,10 +28,10 @@ def tube(rings: np.ndarray, u: np.ndarray, v: np.ndarray) -> Patch:
     Seen along the sweep the points of a ring run clockwise: then faces look outward.
     u : (n + 1,) or (k, n + 1), mm, along the rings; v : (k,), mm, across them.
     """
-    return strip(np.concatenate([rings, rings[:, :1]], 1), u, v)
+    return _strip(np.concatenate([rings, rings[:, :1]], 1), u, v)
 
 
-def strip(rows: np.ndarray, u: np.ndarray, v: np.ndarray) -> Patch:
+def _strip(rows: np.ndarray, u: np.ndarray, v: np.ndarray) -> Patch:
     """Join rows (k, n, 3) of points one after another; u (n,) or (k, n) along them, v (k,) across, mm."""
     k, n = rows.shape[:2]
     i, j = (x.ravel() for x in np.meshgrid(np.arange(k - 1), np.arange(n - 1), indexing="ij"))
@@ -129,6 +130,7 @@ def solid(patch: Patch, left: float = 0.0) -> Any:
             patch.F.astype(np.uint32),
             again.astype(np.uint32),
             same[again].astype(np.uint32),
+            face_id=np.arange(len(patch.F), dtype=np.uint32),  # no faces of one plane are made one
         )
     )
     if made.is_empty() or made.volume() <= 0:

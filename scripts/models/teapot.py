@@ -46,7 +46,7 @@ _SUNK = 2.5  # mm that the handle's ends go on into the body
 _LID = 2.4 * _SCALE  # height of the body's open top
 
 
-def teapot(step: float = 1.9) -> trimesh.Trimesh:
+def teapot(step: float = 2.2) -> trimesh.Trimesh:
     """Join the three surfaces to one, open at the top of the body and at the end of the spout; y is up.
 
     Each brings its own parameters: ways along the outlines that were turned or swept.
