@@ -10,7 +10,7 @@ from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import cut_open
 from meshjig.charts.flatten import is_unflipped, unit_stretch
 from meshjig.charts.part import part
-from meshjig.charts.source_uv import SourceUV, sample, source_uv
+from meshjig.charts.source_uv import SourceUV, is_as_loaded, sample, source_uv
 from meshjig.charts.steady import steady
 from meshjig.charts.tidy import tidy
 from meshjig.charts.untangle import untangle
@@ -61,7 +61,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
             f"the file's UVs fall into {n} islands, and more than {_MOST} leave hardly a tile whole",
             hint="use --charts auto",
         )
-    mesh = Mesh(steady(mesh.V, mesh.F), mesh.F)
+    if not is_as_loaded(mesh.V, mesh.F, found):
+        mesh = Mesh(steady(mesh.V, mesh.F), mesh.F)
     island, places = sample(mesh.V, mesh.F, found)
     e = edges(mesh.F)
     if (island < 0).any() or not _hangs_together(mesh.F, e, island):

@@ -9,7 +9,7 @@ from meshjig.errors import ChartError
 from meshjig.measure import area_vectors, barycentric, interpolate
 from meshjig.topology import components
 
-__all__ = ["SourceUV", "sample", "source_uv"]
+__all__ = ["SourceUV", "is_as_loaded", "sample", "source_uv"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -58,6 +58,13 @@ def source_uv(source: Any, to_source: Floats) -> SourceUV:
     return SourceUV(V[first], F, uv[first], components(F)[1])
 
 
+def is_as_loaded(V: Floats, F: Ints, source: SourceUV) -> bool:
+    """Tell whether the faces of a mesh (V, F) are those of the file, in their order."""
+    if len(F) != len(source.F):
+        return False
+    return bool(np.abs(V[F] - source.V[source.F]).max() <= _AS_LOADED * np.ptp(V))
+
+
 def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
     """Give each face of a mesh its island, and each corner its UV there.
 
@@ -73,7 +80,7 @@ def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
     uv : (m, 3, 2) float64, as the nearest face of that island would go on
     """
     corners = V[F]
-    if len(F) == len(source.F) and np.abs(corners - source.V[source.F]).max() <= _AS_LOADED * np.ptp(V):
+    if is_as_loaded(V, F, source):
         return source.island, source.uv[source.F]
     import igl
 

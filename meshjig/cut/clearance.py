@@ -140,8 +140,14 @@ def _carried_over(
     row, t = _samples(seams.end[inner] - seams.start[inner], step)
     row = inner[row]
     seam_uv = seams.start[row] + (seams.end[row] - seams.start[row]) * t[:, None]
-    stretch, s = _samples(curves.end - curves.start, step)
-    curve_uv = curves.start[stretch] + (curves.end[stretch] - curves.start[stretch]) * s[:, None]
+    reach = 1.5 * clearance + float(np.linalg.norm(seams.end[inner] - seams.start[inner], axis=1).max()) / 2
+    apart, _ = cKDTree((seams.start[inner] + seams.end[inner]) / 2).query((curves.start + curves.end) / 2)
+    beside = apart <= reach + np.linalg.norm(curves.end - curves.start, axis=1) / 2
+    if not beside.any():
+        return np.zeros(0, object)
+    start, end = curves.start[beside], curves.end[beside]
+    stretch, s = _samples(end - start, step)
+    curve_uv = start[stretch] + (end[stretch] - start[stretch]) * s[:, None]
     ratio = clearance / 2 / width[row]  # mm on the surface for a mm in the plane
     distance, _ = cKDTree(curve_uv).query(seam_uv, distance_upper_bound=1.5 * clearance)
     left = clearance / 2 - distance * ratio
