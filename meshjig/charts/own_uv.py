@@ -61,7 +61,7 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
             f"the file's UVs fall into {n} islands, and more than {_MOST} leave hardly a tile whole",
             hint="use --charts auto",
         )
-    if not is_as_loaded(mesh.V, mesh.F, found):
+    if not is_as_loaded(mesh.V, mesh.F, found).any():
         mesh = Mesh(steady(mesh.V, mesh.F), mesh.F)
     island, places = sample(mesh.V, mesh.F, found)
     e = edges(mesh.F)

@@ -13,6 +13,7 @@ __all__ = ["SourceUV", "is_as_loaded", "sample", "source_uv"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _SAME = 2.0**-30  # of the extent: vertices nearer than that, with equal UVs, are one
 _AS_LOADED = 1e-9  # of the extent: corners that near to the file's are those
@@ -58,11 +59,12 @@ def source_uv(source: Any, to_source: Floats) -> SourceUV:
     return SourceUV(V[first], F, uv[first], components(F)[1])
 
 
-def is_as_loaded(V: Floats, F: Ints, source: SourceUV) -> bool:
-    """Tell whether the faces of a mesh (V, F) are those of the file, in their order."""
+def is_as_loaded(V: Floats, F: Ints, source: SourceUV) -> Bools:
+    """Tell which faces of a mesh (V, F) are those of the file, in their order, (m,)."""
     if len(F) != len(source.F):
-        return False
-    return bool(np.abs(V[F] - source.V[source.F]).max() <= _AS_LOADED * np.ptp(V))
+        return np.zeros(len(F), bool)
+    same: Bools = np.abs(V[F] - source.V[source.F]).max((1, 2)) <= _AS_LOADED * np.ptp(V)
+    return same
 
 
 def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
@@ -79,11 +81,20 @@ def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
         looks the same way
     uv : (m, 3, 2) float64, as the nearest face of that island would go on
     """
-    corners = V[F]
-    if is_as_loaded(V, F, source):
-        return source.island, source.uv[source.F]
+    same = is_as_loaded(V, F, source)
+    if not same.any():
+        return _sampled(V, F, source)
+    island, uv = source.island.copy(), source.uv[source.F]
+    if not same.all():
+        island[~same], uv[~same] = _sampled(V, F[~same], source)
+    return island, uv
+
+
+def _sampled(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
+    """Look for places in the faces of a mesh where the file's are nearest."""
     import igl
 
+    corners = V[F]
     middle = corners.mean(1)
     places = np.concatenate([middle[:, None] + _INSET * (corners - middle[:, None]), middle[:, None]], 1)
     _, near, _ = igl.point_mesh_squared_distance(places.reshape(-1, 3), source.V, source.F)

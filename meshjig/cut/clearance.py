@@ -14,6 +14,7 @@ __all__ = ["gap_outlines"]
 WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
 STRAIGHT = 0.01  # of the clearance, that a border may be off when it is drawn with fewer points
 SIMPLE = {"stretch": 0.02, "domain": 0.05}  # of the clearance, that the band's rim may be off
+STEP = {"stretch": 1 / 6, "domain": 1 / 3}  # of the clearance, between discs beyond a seam
 DISC = 5  # the same, of a disc beyond a seam
 WIDEST = 1.7  # times the half clearance, on either side of a crease
 ARC = {"stretch": 5, "domain": 2}  # corners of a quarter circle
@@ -65,7 +66,7 @@ def gap_outlines(
         [
             _buffered(curves, curve_width, clearance, ARC[method]),
             _buffered(seam_curves, seam_width[row], clearance, ARC[method]),
-            _carried_over(cut, curves, seams, seam_width, clearance),
+            _carried_over(cut, curves, seams, seam_width, clearance, STEP[method]),
         ]
     )
     return _as_outlines(_simple(shapely.union_all(shapes), SIMPLE[method] * clearance), clearance)
@@ -127,7 +128,7 @@ def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
 
 
 def _carried_over(
-    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float
+    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float, step: float
 ) -> np.ndarray:
     """Give discs beyond inner seams where a border on this side is nearer than half the clearance."""
     import shapely
@@ -136,7 +137,7 @@ def _carried_over(
     inner = np.flatnonzero(~seams.active)
     if not len(inner) or not len(curves.start):
         return np.zeros(0, object)
-    step = clearance / 6
+    step = clearance * step
     row, t = _samples(seams.end[inner] - seams.start[inner], step)
     row = inner[row]
     seam_uv = seams.start[row] + (seams.end[row] - seams.start[row]) * t[:, None]

@@ -15,6 +15,7 @@ _AXIS = 76.0  # mm, height of the disc's axis and the hole's; they run along z
 _RIM, _THICK, _SOFT = 46.0, 18.0, 6.0  # mm, of the disc: radius, half thickness, rounding
 _WAIST, _FLARE = 15.0, 0.75  # mm, of the hole: least radius; how fast it widens
 _ARCH = 26.0  # mm, radius of the cut
+_FAR = 1000.0  # mm, between the islands of two surfaces
 _EVEN = 0.5  # how far tiles on narrow parts of turned surfaces keep their shape
 
 
@@ -34,7 +35,7 @@ def bridge(step: float = 1.6) -> trimesh.Trimesh:
     uv = np.empty((len(F), 3, 2))
     for k, name in enumerate(mesh.run_original_id):
         run = slice(int(starts[k]), int(starts[k + 1]))
-        uv[run] = surfaces[int(name)](V[F[run]]) + [1000.0 * names.index(int(name)), 0.0]
+        uv[run] = surfaces[int(name)](V[F[run]]) + np.array([_FAR * names.index(int(name)), 0.0])
     return meshed(parted(V, F, uv))
 
 
@@ -98,7 +99,10 @@ def _cut(step: float) -> Any:
     gate = np.vstack([[[_ARCH, -10]], arch, [[-_ARCH, -10]]])
     places = np.linspace(-60, 60, int(120 / step) + 1)
     rings = np.stack([np.insert(gate, 2, z, axis=1) for z in places])
-    ends = [wheel(ring[None], ring.mean(0), np.arange(len(gate)) * 2 * np.pi / len(gate)) for ring in rings[[0, -1]]]
+    ends = [
+        wheel(ring[None], ring.mean(0), np.arange(len(gate)) * 2 * np.pi / len(gate))
+        for ring in rings[[0, -1]]
+    ]
     wall = tube(rings, np.arange(len(gate) + 1.0), places)
     return solid(joined([wall, flipped(ends[0]), ends[1]]))
 

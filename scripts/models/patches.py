@@ -6,8 +6,8 @@ import numpy as np
 import trimesh
 
 __all__ = [
-    "Patch", "flat", "flipped", "joined", "mean_girth", "meshed", "parted", "solid", "spread", "tube", "turns",
-    "unsolid", "wheel",
+    "Patch", "flat", "flipped", "joined", "mean_girth", "meshed", "parted", "solid", "spread", "tube",
+    "turns", "unsolid", "wheel",
 ]  # fmt: skip
 
 _APART = 20.0  # mm, between islands

@@ -85,7 +85,8 @@ def _tube(rows: list, sunk: float = 0.0) -> Patch:
     back = arc[:, -2:0:-1] * (1, -1, 1)
     rings = np.concatenate([arc, back], 1)[..., [0, 2, 1]] * (1, 1, -1) * _SCALE
     if sunk:
-        rings = np.concatenate([rings[:1] + [sunk, 0, 0], rings, rings[-1:] + [sunk, 0, 0]])
+        inward = np.array([sunk, 0.0, 0.0])
+        rings = np.concatenate([rings[:1] + inward, rings, rings[-1:] + inward])
     if np.cross(rings[0], np.roll(rings[0], -1, 0)).sum(0) @ (rings[1] - rings[0]).mean(0) < 0:
         rings = rings[:, ::-1]
     angle = -2 * np.pi * np.arange(rings.shape[1]) / rings.shape[1]
