@@ -1,4 +1,4 @@
-"""UVs that go around: the line where they were cut is a closing line, and what only looks like one is none."""
+"""UVs that go around: the line where they were cut is a closing line; what only looks like one is none."""
 
 import numpy as np
 import pytest
