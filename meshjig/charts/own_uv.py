@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.charts.around import closed_around
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import cut_open
 from meshjig.charts.flatten import is_unflipped, unit_stretch
 from meshjig.charts.part import part
-from meshjig.charts.source_uv import SourceUV, sample, source_uv
+from meshjig.charts.source_uv import SourceUV, is_as_loaded, sample, source_uv
 from meshjig.charts.steady import steady
 from meshjig.charts.tidy import tidy
 from meshjig.charts.untangle import untangle
@@ -45,7 +46,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
     Returns
     -------
     list of Chart
-        Cut where the UVs are cut; mirrored islands are turned; the mean stretch of each is 1.
+        Cut where the UVs are cut; mirrored islands are turned; the mean stretch of each is 1. An island
+        whose cut joins two sides one way apart goes around: it has a period.
 
     Raises
     ------
@@ -59,7 +61,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
             f"the file's UVs fall into {n} islands, and more than {_MOST} leave hardly a tile whole",
             hint="use --charts auto",
         )
-    mesh = Mesh(steady(mesh.V, mesh.F), mesh.F)
+    if not is_as_loaded(mesh.V, mesh.F, found).any():
+        mesh = Mesh(steady(mesh.V, mesh.F), mesh.F)
     island, places = sample(mesh.V, mesh.F, found)
     e = edges(mesh.F)
     if (island < 0).any() or not _hangs_together(mesh.F, e, island):
@@ -70,7 +73,8 @@ def own_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
     total = sums(flat, weight, len(origin))
     uv = np.stack([sums(flat, weight * places[..., k].ravel(), len(origin)) / total for k in (0, 1)], 1)
     n_charts, chart = components(corners)
-    return [_chart(mesh, found, np.flatnonzero(chart == k), uv, corners, origin) for k in range(n_charts)]
+    charts = [_chart(mesh, found, np.flatnonzero(chart == k), uv, corners, origin) for k in range(n_charts)]
+    return [closed_around(chart, e) for chart in charts]
 
 
 def _hangs_together(F: Ints, e: Edges, island: Ints) -> bool:

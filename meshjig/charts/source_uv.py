@@ -9,12 +9,14 @@ from meshjig.errors import ChartError
 from meshjig.measure import area_vectors, barycentric, interpolate
 from meshjig.topology import components
 
-__all__ = ["SourceUV", "sample", "source_uv"]
+__all__ = ["SourceUV", "is_as_loaded", "sample", "source_uv"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _SAME = 2.0**-30  # of the extent: vertices nearer than that, with equal UVs, are one
+_AS_LOADED = 1e-9  # of the extent: corners that near to the file's are those
 _INSET = 0.8  # of the way from a face's middle to its corners: what lies on a seam would belong to both sides
 
 
@@ -57,6 +59,14 @@ def source_uv(source: Any, to_source: Floats) -> SourceUV:
     return SourceUV(V[first], F, uv[first], components(F)[1])
 
 
+def is_as_loaded(V: Floats, F: Ints, source: SourceUV) -> Bools:
+    """Tell which faces of a mesh (V, F) are those of the file, in their order, (m,)."""
+    if len(F) != len(source.F):
+        return np.zeros(len(F), bool)
+    same: Bools = np.abs(V[F] - source.V[source.F]).max((1, 2)) <= _AS_LOADED * np.ptp(V)
+    return same
+
+
 def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
     """Give each face of a mesh its island, and each corner its UV there.
 
@@ -71,6 +81,17 @@ def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
         looks the same way
     uv : (m, 3, 2) float64, as the nearest face of that island would go on
     """
+    same = is_as_loaded(V, F, source)
+    if not same.any():
+        return _sampled(V, F, source)
+    island, uv = source.island.copy(), source.uv[source.F]
+    if not same.all():
+        island[~same], uv[~same] = _sampled(V, F[~same], source)
+    return island, uv
+
+
+def _sampled(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
+    """Look for places in the faces of a mesh where the file's are nearest."""
     import igl
 
     corners = V[F]
@@ -79,7 +100,9 @@ def sample(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
     _, near, _ = igl.point_mesh_squared_distance(places.reshape(-1, 3), source.V, source.F)
     near = near.reshape(-1, 4).astype(np.int64)
     N, M = area_vectors(V, F), area_vectors(source.V, source.F)
-    found = np.where(np.einsum("ij,ikj->ik", N, M[near]) >= 0, source.island[near], -1)
+    alike = np.einsum("ij,ikj->ik", N, M[near])
+    turned = -1 if np.sign(alike).mean() < 0 else 1  # a file may have been inside out
+    found = np.where(turned * alike >= 0, source.island[near], -1)
     votes = (found[:, :, None] == found[:, None, :]).sum(2) * (found >= 0)
     votes[:, 3] *= 2  # the middle decides between equals
     island = np.take_along_axis(found, votes.argmax(1)[:, None], 1)[:, 0]

@@ -12,9 +12,12 @@ from meshjig.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 __all__ = ["gap_outlines"]
 
 WIDTH_STEP = 0.03  # stretches whose half widths lie within this factor share one buffer
-STRAIGHT = 2e-4  # mm, that a border may be off when it is drawn with fewer points
+STRAIGHT = 0.01  # of the clearance, that a border may be off when it is drawn with fewer points
+SIMPLE = {"stretch": 0.02, "domain": 0.05}  # of the clearance, that the band's rim may be off
+STEP = {"stretch": 1 / 6, "domain": 1 / 3}  # of the clearance, between discs beyond a seam
+DISC = 5  # the same, of a disc beyond a seam
 WIDEST = 1.7  # times the half clearance, on either side of a crease
-ARC = 5  # corners of a quarter circle
+ARC = {"stretch": 5, "domain": 2}  # corners of a quarter circle
 
 
 def gap_outlines(
@@ -61,12 +64,12 @@ def gap_outlines(
     seam_curves, row = along_seams(seams)
     shapes = np.concatenate(
         [
-            _buffered(curves, curve_width, clearance),
-            _buffered(seam_curves, seam_width[row], clearance),
-            _carried_over(cut, curves, seams, seam_width, clearance),
+            _buffered(curves, curve_width, clearance, ARC[method]),
+            _buffered(seam_curves, seam_width[row], clearance, ARC[method]),
+            _carried_over(cut, curves, seams, seam_width, clearance, STEP[method]),
         ]
     )
-    return _as_outlines(shapely.simplify(shapely.union_all(shapes), clearance / 100), clearance)
+    return _as_outlines(_simple(shapely.union_all(shapes), SIMPLE[method] * clearance), clearance)
 
 
 def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: float, method: str) -> Floats:
@@ -84,7 +87,7 @@ def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
     return 1 / np.sqrt(np.clip((1 + cos) / 2, WIDEST**-2, 1))
 
 
-def _buffered(curves: PlaneCurves, width: Floats, clearance: float) -> np.ndarray:
+def _buffered(curves: PlaneCurves, width: Floats, clearance: float, arc: int) -> np.ndarray:
     """Buffer runs of stretches that follow each other and have nearly the same width."""
     import shapely
 
@@ -103,7 +106,16 @@ def _buffered(curves: PlaneCurves, width: Floats, clearance: float) -> np.ndarra
     order = np.argsort(line, kind="stable")
     lines = shapely.linestrings(points[order], indices=line[order])
     half = clearance / 2 * np.exp(step[first] * WIDTH_STEP)
-    return shapely.buffer(shapely.simplify(lines, STRAIGHT), half, quad_segs=ARC)
+    lines = shapely.simplify(lines, STRAIGHT * clearance, preserve_topology=False)
+    return shapely.buffer(lines, half, quad_segs=arc)
+
+
+def _simple(band: Any, tolerance: float) -> Any:
+    """Draw a band with fewer points; the quick way hardly ever makes rims cross, and then it won't do."""
+    import shapely
+
+    quick = shapely.simplify(band, tolerance, preserve_topology=False)
+    return quick if shapely.is_valid(quick) else shapely.simplify(band, tolerance)
 
 
 def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
@@ -116,7 +128,7 @@ def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
 
 
 def _carried_over(
-    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float
+    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float, step: float
 ) -> np.ndarray:
     """Give discs beyond inner seams where a border on this side is nearer than half the clearance."""
     import shapely
@@ -125,12 +137,18 @@ def _carried_over(
     inner = np.flatnonzero(~seams.active)
     if not len(inner) or not len(curves.start):
         return np.zeros(0, object)
-    step = clearance / 6
+    step = clearance * step
     row, t = _samples(seams.end[inner] - seams.start[inner], step)
     row = inner[row]
     seam_uv = seams.start[row] + (seams.end[row] - seams.start[row]) * t[:, None]
-    stretch, s = _samples(curves.end - curves.start, step)
-    curve_uv = curves.start[stretch] + (curves.end[stretch] - curves.start[stretch]) * s[:, None]
+    reach = 1.5 * clearance + float(np.linalg.norm(seams.end[inner] - seams.start[inner], axis=1).max()) / 2
+    apart, _ = cKDTree((seams.start[inner] + seams.end[inner]) / 2).query((curves.start + curves.end) / 2)
+    beside = apart <= reach + np.linalg.norm(curves.end - curves.start, axis=1) / 2
+    if not beside.any():
+        return np.zeros(0, object)
+    start, end = curves.start[beside], curves.end[beside]
+    stretch, s = _samples(end - start, step)
+    curve_uv = start[stretch] + (end[stretch] - start[stretch]) * s[:, None]
     ratio = clearance / 2 / width[row]  # mm on the surface for a mm in the plane
     distance, _ = cKDTree(curve_uv).query(seam_uv, distance_upper_bound=1.5 * clearance)
     left = clearance / 2 - distance * ratio
@@ -138,7 +156,7 @@ def _carried_over(
     row, t = row[near], t[near]
     mate = seams.mate[row]
     beyond = seams.end[mate] + (seams.start[mate] - seams.end[mate]) * t[:, None]
-    return shapely.buffer(shapely.points(beyond), left[near] * width[mate] * 2 / clearance, quad_segs=ARC)
+    return shapely.buffer(shapely.points(beyond), left[near] * width[mate] * 2 / clearance, quad_segs=DISC)
 
 
 def _samples(direction: Floats, step: float) -> tuple[Ints, Floats]:

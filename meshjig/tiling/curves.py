@@ -13,6 +13,7 @@ from meshjig.types import Floats, Ints
 __all__ = ["POINT_DISTANCE", "Curves", "along", "shaped_curves"]
 
 POINT_DISTANCE = 0.6  # mm along a tile's edge
+FLAT = 0.02  # mm, that a drawn curve may be off when it is cut with fewer points
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,14 @@ def shaped_curves(
 
 
 def _refined(curve: Floats, placing: Placing) -> Floats:
-    """Split a curve's segments where they are long once it is placed."""
+    """Leave out the points of a placed curve that it hardly bends at, and split its long segments."""
+    import shapely
+
+    placed = placing(curve)
+    kept = shapely.get_coordinates(
+        shapely.simplify(shapely.linestrings(placed), FLAT, preserve_topology=False)
+    )
+    curve = curve[np.flatnonzero(np.isin(placed @ [1, 1j], kept @ [1, 1j]))]
     length = np.linalg.norm(np.diff(placing(curve), axis=0), axis=1)
     n = np.maximum(np.ceil(length / POINT_DISTANCE).astype(np.int64), 1)
     row = np.repeat(np.arange(len(n)), n)

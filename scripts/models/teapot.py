@@ -3,7 +3,19 @@
 import numpy as np
 import trimesh
 
-from models.rings import swept
+from models.patches import (
+    Patch,
+    flipped,
+    joined,
+    mean_girth,
+    meshed,
+    solid,
+    spread,
+    tube,
+    turns,
+    unsolid,
+    wheel,
+)
 
 __all__ = ["teapot"]
 
@@ -29,35 +41,42 @@ _SPOUT = [
     [(2.7, 0, 2.4), (2.7, 0.25, 2.4), (3.3, 0.25, 2.4), (3.3, 0, 2.4)],
 ]
 _SCALE = 150 / 6.3  # to about 150 mm from handle to spout
+_SOLE = 1.42 * _SCALE  # radius of the bottom that is laid flat
+_SUNK = 2.5  # mm that the handle's ends go on into the body
 _LID = 2.4 * _SCALE  # height of the body's open top
 
 
-def teapot(step: float = 1.9) -> trimesh.Trimesh:
-    """Join the three surfaces to one, open at the top of the body and at the end of the spout; y is up."""
-    from manifold3d import Manifold, Mesh
+def teapot(step: float = 2.2) -> trimesh.Trimesh:
+    """Join the three surfaces to one, open at the top of the body and at the end of the spout; y is up.
 
-    def solid(mesh: trimesh.Trimesh) -> Manifold:
-        return Manifold(Mesh(mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32)))
+    Each brings its own parameters: ways along the outlines that were turned or swept.
+    """
+    parts = [_body(), _tube(_SPOUT), _tube(_HANDLE, _SUNK)]
+    whole = sum((solid(part, 1000.0 * k) for k, part in enumerate(parts[1:], 1)), start=solid(parts[0]))
+    return _opened(meshed(unsolid(whole.refine_to_length(step))))
 
-    profile = _cubics(np.array(_BODY), 24)
+
+def _body() -> Patch:
+    """Turn the profile about the y axis; the bottom is laid flat as it is, the top is closed."""
+    profile = _cubics(np.array(_BODY), 24)[1:] * _SCALE
     angle = np.linspace(0, 2 * np.pi, 181)[:-1]
-    rings = np.stack(
-        [profile[1:, :1] * np.cos(angle), np.broadcast_to(profile[1:, 1:], (len(profile) - 1, 180))], -1
-    )
-    body = swept(
-        np.concatenate([rings, -(profile[1:, :1] * np.sin(angle))[..., None]], -1) * _SCALE,
-        np.zeros(3),
-        np.array([0, _LID, 0]),
-    )
-    spout = _tube(_SPOUT, 1)
-    whole = solid(body) + solid(spout) + solid(_tube(_HANDLE, -1))
-    mesh = whole.refine_to_length(step).to_mesh()
-    joined = trimesh.Trimesh(mesh.vert_properties[:, :3], mesh.tri_verts, process=False)
-    return _opened(joined)
+    x, z = profile[:, :1] * np.cos(angle), -profile[:, :1] * np.sin(angle)
+    rings = np.stack([x, np.broadcast_to(profile[:, 1:], x.shape), z], -1)
+    edge = int((profile[:, 0] > _SOLE).argmax())
+    bottom = wheel(rings[: edge + 1], np.zeros(3), angle)
+    top = wheel(rings[-1:], np.array([0, _LID, 0]), angle)
+    return joined([_rolled(rings[edge:]), flipped(bottom), top])
 
 
-def _tube(rows: list, side: int) -> trimesh.Trimesh:
-    """Sweep the outline of half patch rows mirrored at depth 0, closed at both ends."""
+def _rolled(rings: np.ndarray) -> Patch:
+    """Lay a tube out flat, by the length of its rings (k, n, 3) and the way from one to the next."""
+    way = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(rings, axis=0), axis=2).mean(1)))
+    girth = mean_girth(rings, way)
+    return tube(rings, girth * turns(rings), spread(rings, way, girth))
+
+
+def _tube(rows: list, sunk: float = 0.0) -> Patch:
+    """Sweep the outline of half patch rows mirrored at depth 0, closed at both ends, which go on along x."""
     half = _cubics(np.array(rows, float), 30)  # (k, 4, 3)
     t = np.linspace(0, 1, 25)[:, None, None]
     a, b, c, d = np.moveaxis(half, 1, 0)
@@ -65,10 +84,15 @@ def _tube(rows: list, side: int) -> trimesh.Trimesh:
     arc = np.moveaxis(arc, 0, 1)  # (k, 25, 3): from the inner edge over one side to the outer
     back = arc[:, -2:0:-1] * (1, -1, 1)
     rings = np.concatenate([arc, back], 1)[..., [0, 2, 1]] * (1, 1, -1) * _SCALE
-    tube = swept(rings, rings[0].mean(0), rings[-1].mean(0))
-    if tube.volume < 0:
-        tube.invert()
-    return tube
+    if sunk:
+        inward = np.array([sunk, 0.0, 0.0])
+        rings = np.concatenate([rings[:1] + inward, rings, rings[-1:] + inward])
+    if np.cross(rings[0], np.roll(rings[0], -1, 0)).sum(0) @ (rings[1] - rings[0]).mean(0) < 0:
+        rings = rings[:, ::-1]
+    angle = -2 * np.pi * np.arange(rings.shape[1]) / rings.shape[1]
+    start = wheel(rings[:1], rings[0].mean(0), angle)
+    end = wheel(rings[-1:], rings[-1].mean(0), angle)
+    return joined([_rolled(rings), flipped(start), end])
 
 
 def _cubics(points: np.ndarray, n: int) -> np.ndarray:

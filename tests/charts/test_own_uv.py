@@ -153,3 +153,16 @@ def test_the_textured_bunny_is_refused():
     path = pymeshlab.__path__[0] + "/tests/sample_meshes/bunny10k_textured.obj"
     with pytest.raises(ChartError, match="190 islands"):
         charted(path)
+
+
+def test_a_ball_inside_out_keeps_its_islands():
+    V, F, uv = ball()
+    mesh, charts = charted(textured(V, F[:, ::-1], uv))
+    assert_sound(mesh, charts)
+    assert len(charts) == 2
+
+
+def test_a_tube_cut_along_a_line_goes_around():
+    _, (chart,) = charted(textured(*sheet()))
+    left, right = chart.uv[:, 0].min(), chart.uv[:, 0].max()
+    assert right - left == chart.period > 0
