@@ -30,14 +30,18 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
     from scipy.sparse.csgraph import connected_components
     from scipy.sparse.linalg import spsolve
 
-    E, n = edges(F).E, len(V)
-    flat, long = (np.linalg.norm(X[E[:, 0]] - X[E[:, 1]], axis=1) for X in (uv, V))
-    sound = E[flat <= _LONGEST * long]
+    n = len(V)
+    flat, long = (((X[F] - X[np.roll(F, -1, 1)]) ** 2).sum(2) for X in (uv, V))
+    sides = flat <= _LONGEST**2 * long
+    if sides.all():
+        return uv
+    sound = np.stack([F, np.roll(F, -1, 1)], 2)[sides]
     graph = coo_matrix((np.ones(len(sound)), sound.T), shape=(n, n))
     _, part = connected_components(graph, directed=False)
     stray = part != np.bincount(part).argmax()
     if not stray.any():
         return uv
+    E = edges(F).E
     W = coo_matrix((np.ones(len(E)), E.T), shape=(n, n)).tocsr()
     W = W + W.T
     L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()[stray]
