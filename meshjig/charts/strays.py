@@ -31,11 +31,12 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
     from scipy.sparse.linalg import spsolve
 
     n = len(V)
-    flat, long = (((X[F] - X[np.roll(F, -1, 1)]) ** 2).sum(2) for X in (uv, V))
-    sides = flat <= _LONGEST**2 * long
-    if sides.all():
+    sides = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
+    flat, long = (((X[sides[:, 1]] - X[sides[:, 0]]) ** 2 @ np.ones(X.shape[1])) for X in (uv, V))
+    is_sound = flat <= _LONGEST**2 * long
+    if is_sound.all():
         return uv
-    sound = np.stack([F, np.roll(F, -1, 1)], 2)[sides]
+    sound = sides[is_sound]
     graph = coo_matrix((np.ones(len(sound)), sound.T), shape=(n, n))
     _, part = connected_components(graph, directed=False)
     stray = part != np.bincount(part).argmax()
