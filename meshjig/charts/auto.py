@@ -6,6 +6,7 @@ import numpy as np
 
 from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting
+from meshjig.charts.denoise import smoothed
 from meshjig.charts.flatten import Method
 from meshjig.charts.layout import lay_out
 from meshjig.charts.own import own_charts
@@ -24,7 +25,8 @@ ComponentMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "p
 
 GATE = 0.97  # of the area within FLAT_LIMITS
 _HEAVY = 300_000  # faces: charts of more are found on a coarser mesh
-_MIDDLE = 60_000  # faces of that, about
+_MIDDLE = 60_000  # faces of that, at most
+_PASSES = 5  # that take away what noise coarsening leaves
 _FEW_SEAMS = 3.5  # length over the root of the area: our segmentation hardly ever needs less
 
 
@@ -65,8 +67,11 @@ def chart_component(
     """
     if method == "periodic":
         return Charting(_rings(V, F, seed), "periodic")
-    if len(F) > _HEAVY and len((middle := coarsened(V, F, _MIDDLE))[1]) < len(F):
-        return _of_heavy(V, F, middle, method, seed, zipped, xatlas_options)
+    if len(F) > _HEAVY:
+        W, G = coarsened(V, F, _MIDDLE)
+        if len(G) < len(F):
+            middle = smoothed(W, G, _PASSES), G
+            return _of_heavy(V, F, middle, method, seed, zipped, xatlas_options)
     light = proxy(V, F)
     if method == "single":
         return single_chart(V, F, light, seed)

@@ -62,8 +62,8 @@ def own_charts(
         charts = [one for chart in glued for one in _flattened_by(W, G, chart, method, leaves, light_leaf)]
     if G is F:
         return Charting(charts, method, light_leaf)
-    carried, leaf = carry_over(V, F, light, light_leaf, charts, method, seed)
-    return Charting(carried, method, leaf)
+    carried, full_leaf = carry_over(V, F, light, light_leaf, charts, method, seed)
+    return Charting(carried, method, full_leaf)
 
 
 def _sound_charts(

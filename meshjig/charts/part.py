@@ -48,7 +48,7 @@ def _pulled(V: Floats, F: Ints, uv: Floats, pulled: Ints) -> Floats:
 
     chosen = np.zeros(len(V), bool)
     chosen[pulled] = True
-    touching = chosen[F].any(1)
+    touching = np.any(chosen[F], axis=1)
     H, kept = compact(F[faces_around(F, touching, _RINGS)])
     own, E = np.flatnonzero(chosen[kept]), edges(H).E
     W = coo_matrix((np.ones(len(E)), E.T), shape=(len(kept),) * 2).tocsr()
