@@ -4,7 +4,10 @@ import numpy as np
 
 from meshjig.charts.carry import Carrier
 from meshjig.charts.chart import Chart, plain
+from meshjig.charts.dual import dual
 from meshjig.charts.flatten import Method, flat_share
+from meshjig.charts.patches import patches
+from meshjig.charts.proxy import coarsened
 from meshjig.charts.rescue import rescue
 from meshjig.charts.transfer import transfer_labels
 from meshjig.measure import face_areas
@@ -71,8 +74,23 @@ def _pulled_or_anew(
     pulled = carrier.carry(part, may_lose=1.0)
     if not len(region) or (pulled is not None and len(region) > _HEAVY):
         return [] if pulled is None else [pulled]
+    if len(region) > _HEAVY:
+        return _by_halves(V, F, region, method, seed)
     anew = [plain(F, *chart) for chart in rescue(V, F, region, method, seed)]
     return anew if pulled is None or _flat(V, F, anew) > _flat(V, F, [pulled]) else [pulled]
+
+
+def _by_halves(V: Floats, F: Ints, region: Ints, method: Method, seed: int) -> list[Chart]:
+    """Make charts of a heavy region: two or more, found on a coarser mesh of it."""
+    H, kept = compact(F[region])
+    W, G = light = coarsened(V[kept], H, _HEAVY)
+    half = patches(dual(W, G), 2, seed, rounds=4)
+    found = [plain(G, *one) for k in (0, 1) for one in rescue(W, G, np.flatnonzero(half == k), method, seed)]
+    leaf = np.empty(len(G), np.int64)
+    for number, chart in enumerate(found):
+        leaf[chart.faces] = number
+    made, _ = carry_over(V[kept], H, light, leaf, found, method, seed, settles=False)
+    return [Chart(region[chart.faces], chart.uv, chart.corners) for chart in made]
 
 
 def _flat(V: Floats, F: Ints, charts: list[Chart]) -> float:

@@ -2,10 +2,10 @@ import igl
 import numpy as np
 import pytest
 
+from meshjig.charts.carried import _carried
 from meshjig.charts.carry import Carrier
 from meshjig.charts.chart import Chart, plain
 from meshjig.charts.cuts import cut_open
-from meshjig.charts.carried import _carried
 from meshjig.topology import compact, edges, is_disc
 from tests.charts.helpers import all_turn_left
 from tests.meshes import cylinder, noisy
