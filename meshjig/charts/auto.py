@@ -26,7 +26,7 @@ ComponentMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "p
 GATE = 0.97  # of the area within FLAT_LIMITS
 _HEAVY = 300_000  # faces: charts of more are found on a coarser mesh
 _MIDDLE = 60_000  # faces of that, at most
-_PASSES = 2  # that take away what noise coarsening leaves
+_PASSES = 1  # that take away what noise coarsening leaves
 _FEW_SEAMS = 3.5  # length over the root of the area: our segmentation hardly ever needs less
 
 

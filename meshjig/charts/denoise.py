@@ -15,7 +15,7 @@ Ints = NDArray[np.int64]
 
 _LIKE = 0.15  # correlation of bumps over an edge: noise has about -0.2, smooth shapes 0.25 and more
 _HIGH = 0.06  # mean height of bumps, in mean edges, from which noise hinders
-_PASSES = 14
+_PASSES = 10
 _SHRINK, _GROW = (
     0.5,
     -0.53,
