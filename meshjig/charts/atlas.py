@@ -13,7 +13,7 @@ from meshjig.charts.quality import quality, seam_over_sqrt_area
 from meshjig.charts.steady import steady
 from meshjig.charts.unwrap import chart_options
 from meshjig.errors import ChartError, OptionError
-from meshjig.topology import compact, components, edges
+from meshjig.topology import compact, edges
 from meshjig.types import Atlas, Floats, Ints, Mesh
 
 __all__ = ["AtlasMethod", "build_atlas"]
@@ -73,8 +73,10 @@ def build_atlas(
     if method == "uv" and source is None:
         raise OptionError("charts: uv needs the mesh as it was loaded", hint="give it as source")
     chart_options(xatlas_options or {})
-    if not len(mesh.F) or edges(mesh.F).n_faces.max() > 2:
+    e = edges(mesh.F)
+    if not len(mesh.F) or e.n_faces.max() > 2:
         raise ChartError("the mesh is empty or not manifold", hint="repair it first")
+    V = mesh.V
     parts: list[tuple[Ints, Charting]] = []  # faces, and how they were charted
     if method == "uv":
         from meshjig.charts.own_uv import own_uv
@@ -83,7 +85,7 @@ def build_atlas(
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
     else:
         V = steady(mesh.V, mesh.F, seed)
-        n, component = components(mesh.F)
+        n, component = _components(e.twin)
         for c in range(n):
             faces = np.flatnonzero(component == c)
             F, kept = compact(mesh.F[faces])
@@ -92,10 +94,21 @@ def build_atlas(
             )
             parts.append((faces, made))
     atlas = lay_out(mesh, [_shifted(chart, faces) for faces, made in parts for chart in made.charts], margin)
-    facts = _facts(atlas, parts)
+    facts = _facts(atlas, parts, V, e.twin)
     if log is not None:
         log.info("charts: %s", facts["reason"])
     return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts, atlas.period)
+
+
+def _components(twin: Ints) -> tuple[int, Ints]:
+    """Number the faces (m,) that hang together, by the twins of their half-edges."""
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    m = len(twin) // 3
+    around = csr_matrix((np.ones(3 * m, np.int8), twin // 3, np.arange(0, 3 * m + 1, 3)), shape=(m, m))
+    n, part = connected_components(around, directed=False)
+    return int(n), part.astype(np.int64)
 
 
 def _shifted(chart: Chart, faces: Ints) -> Chart:
@@ -103,19 +116,19 @@ def _shifted(chart: Chart, faces: Ints) -> Chart:
     return Chart(faces[chart.faces], chart.uv, chart.corners, chart.period)
 
 
-def _facts(atlas: Atlas, parts: list[tuple[Ints, Charting]]) -> dict[str, Any]:
+def _facts(atlas: Atlas, parts: list[tuple[Ints, Charting]], smoothed: Floats, twin: Ints) -> dict[str, Any]:
     """Measure an atlas, and say how it came about."""
-    F, facts = atlas.mesh.F, quality(atlas)
+    F, facts = atlas.mesh.F, quality(atlas, smoothed, twin)
     before = atlas.chart_of_face.copy()
     for faces, made in parts:
         if made.leaf is not None:
             before[faces] = made.leaf + before.max() + 1
-    n_before, twin = len(np.unique(before)), edges(F).twin
+    n_before = int((np.bincount(before) > 0).sum())
     seam = np.repeat(before, 3) != np.repeat(before, 3)[twin]
     largest_first = sorted(parts, key=lambda part: -len(part[0]))
     facts["method"] = "+".join(dict.fromkeys(made.method for _, made in largest_first))
     facts["n_charts_before_zip"] = n_before
-    facts["seam_before_zip"] = seam_over_sqrt_area(atlas.mesh.V, F, seam)
+    facts["seam_before_zip"] = seam_over_sqrt_area(atlas.mesh.V, F, seam, twin)
     facts["zipped"] = max(n_before - facts["n_charts"], 0)
     facts["reason"] = _reason(facts, [made.note for _, made in largest_first])
     return facts

@@ -2,10 +2,15 @@
 
 from typing import Any, Literal
 
+import numpy as np
+
+from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting
+from meshjig.charts.denoise import smoothed
+from meshjig.charts.flatten import Method
 from meshjig.charts.layout import lay_out
 from meshjig.charts.own import own_charts
-from meshjig.charts.proxy import proxy
+from meshjig.charts.proxy import coarsened, proxy
 from meshjig.charts.quality import quality
 from meshjig.charts.segment import segment
 from meshjig.charts.single import single_chart
@@ -19,6 +24,9 @@ __all__ = ["GATE", "ComponentMethod", "chart_component"]
 ComponentMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic"]
 
 GATE = 0.97  # of the area within FLAT_LIMITS
+_HEAVY = 300_000  # faces: charts of more are found on a coarser mesh
+_MIDDLE = 60_000  # faces of that, at most
+_PASSES = 1  # that take away what noise coarsening leaves
 _FEW_SEAMS = 3.5  # length over the root of the area: our segmentation hardly ever needs less
 
 
@@ -59,6 +67,11 @@ def chart_component(
     """
     if method == "periodic":
         return Charting(_rings(V, F, seed), "periodic")
+    if len(F) > _HEAVY:
+        W, G = coarsened(V, F, _MIDDLE)
+        if len(G) < len(F):
+            middle = smoothed(W, G, _PASSES), G
+            return _of_heavy(V, F, middle, method, seed, zipped, xatlas_options)
     light = proxy(V, F)
     if method == "single":
         return single_chart(V, F, light, seed)
@@ -76,6 +89,29 @@ def chart_component(
     return Charting(own.charts, own.method, own.leaf, note)
 
 
+def _of_heavy(
+    V: Floats,
+    F: Ints,
+    middle: tuple[Floats, Ints],
+    method: ComponentMethod,
+    seed: int,
+    zipped: bool,
+    xatlas_options: dict[str, Any] | None,
+) -> Charting:
+    """Cut a coarser mesh into charts, and carry them over."""
+    found = chart_component(*middle, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options)
+    note = found.note
+    if found.leaf is None:  # rings, which follow heights of the mesh itself
+        rings, note = _good_rings(V, F, middle, seed)
+        if rings is not None:
+            return rings
+        found = chart_component(*middle, "slim", seed=seed, zipped=zipped)
+    light_leaf = np.zeros(len(middle[1]), np.int64) if found.leaf is None else found.leaf
+    flattening: Method = "lscm" if method == "lscm" else "slim"
+    charts, leaf = carry_over(V, F, middle, light_leaf, found.charts, flattening, seed, settles=False)
+    return Charting(charts, found.method, leaf, note)
+
+
 def _rings(V: Floats, F: Ints, seed: int) -> list[Chart]:
     from meshjig.charts.periodic import periodic
 
@@ -86,7 +122,7 @@ def _good_rings(V: Floats, F: Ints, light: tuple[Floats, Ints], seed: int) -> tu
     """Give rings around a component where they pass the gates; else why not."""
     from meshjig.charts.periodic import suits
 
-    if not suits(V, F):
+    if not suits(*light):
         return None, ""
     try:
         rings = Charting(_rings(V, F, seed), "periodic")

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from meshjig.topology import border_halfedges, next_halfedge
 
-__all__ = ["border_loop"]
+__all__ = ["border_loop", "longest_loop"]
 
 Ints = NDArray[np.int64]
 
@@ -22,7 +22,11 @@ def border_loop(F: Ints) -> Ints:
     (b,) int64, vertices in order, the first not repeated; empty on a closed mesh
     """
     rim = border_halfedges(F)
-    start, end = F.ravel()[rim], F.ravel()[next_halfedge(rim)]
+    return longest_loop(F.ravel()[rim], F.ravel()[next_halfedge(rim)])
+
+
+def longest_loop(start: Ints, end: Ints) -> Ints:
+    """Follow edges from start (k,) to end (k,), and give the vertices of the longest loop, (b,)."""
     follows = dict(zip(start.tolist(), end.tolist(), strict=True))
     longest: list[int] = []
     while follows:

@@ -4,13 +4,14 @@ import numpy as np
 
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
-from meshjig.charts.flatten import border_is_simple, flat_share, is_unflipped, unit_stretch
+from meshjig.charts.flatten import flat_share, is_unflipped, ring_is_simple, unit_stretch
 from meshjig.charts.part import part
+from meshjig.charts.region import single_loop
 from meshjig.charts.settle import settle
 from meshjig.charts.strays import without_strays
 from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
-from meshjig.topology import Edges, compact, edges, is_disc
+from meshjig.topology import Edges, compact, edges
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Carrier"]
@@ -30,12 +31,25 @@ class Carrier:
     leaf : (m,) int64, 0 to k - 1
     W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
     light_leaf : (m',) int64, 0 to k - 1
+    e : Edges, of F, where the caller has them
+    settles : bool, whether to look for details of the mesh that the proxy has not seen
     """
 
-    def __init__(self, V: Floats, F: Ints, leaf: Ints, W: Floats, G: Ints, light_leaf: Ints) -> None:
+    def __init__(
+        self,
+        V: Floats,
+        F: Ints,
+        leaf: Ints,
+        W: Floats,
+        G: Ints,
+        light_leaf: Ints,
+        e: Edges | None = None,
+        settles: bool = True,
+    ) -> None:
         self._V, self._F, self.leaf = V, F, leaf
         self._W, self._G, self._light_leaf = W, G, light_leaf
-        self._e, self._light = edges(F), edges(G)
+        self._n_leaves, self._settles = int(max(leaf.max(), light_leaf.max())) + 1, settles
+        self._e, self._light = edges(F) if e is None else e, edges(G)
         self._sides, self._light_sides = _sides(self._e, leaf), _sides(self._light, light_leaf)
         rim = np.unique(self._e.E[self._e.n_faces == 1])
         rows = np.flatnonzero(self._sides[:, 0] != self._sides[:, 1])
@@ -50,42 +64,57 @@ class Carrier:
         may_lose : float, share of the area that may leave FLAT_LIMITS for mirrored faces to be turned
             back and borders to be drawn apart
         """
-        leaves = np.unique(self._light_leaf[chart.faces])
-        faces = np.flatnonzero(np.isin(self.leaf, leaves))
-        corners = cut_faces(self._e, self._cut_around(leaves, chart), faces)
-        if not is_disc(corners):
+        is_chosen = np.zeros(self._n_leaves, bool)
+        is_chosen[self._light_leaf[chart.faces]] = True
+        faces = np.flatnonzero(is_chosen[self.leaf])
+        cut = self._cut_around(is_chosen, chart)
+        corners = cut_faces(self._e, cut, faces)
+        border = self._border(cut, faces, corners)
+        if border is None:
             return None
         X = np.empty((int(corners.max()) + 1, 3))
         X[corners] = self._V[self._F[faces]]
         guess = without_strays(X, corners, self._first_guess(chart, faces, corners))
-        uv = part(X, corners, settle(X, corners, untangle(X, corners, guess)))
-        if not (is_unflipped(uv, corners) and border_is_simple(uv, corners)):
+        uv = untangle(X, corners, guess)
+        if self._settles:
+            uv = settle(X, corners, uv, border=border)
+        uv = part(X, corners, uv, border=border)
+        if not (is_unflipped(uv, corners) and ring_is_simple(uv[border])):
             return None
         uv = unit_stretch(X, corners, uv)
         if flat_share(X, corners, uv) < flat_share(X, corners, guess) - may_lose:
             return None  # too much was pulled along
         return Chart(faces, uv, corners)
 
-    def _cut_around(self, leaves: Ints, chart: Chart) -> Bools:
+    def _border(self, cut: Bools, faces: Ints, corners: Ints) -> Ints | None:
+        """Give the corners along the border of faces cut open; None where they are no disc."""
+        h = (3 * faces[:, None] + np.arange(3)).ravel()
+        rim = np.flatnonzero(cut[self._e.edge_of_halfedge[h]] | (self._e.twin[h] == h))
+        n, ends = int(corners.max()) + 1, np.stack([corners.ravel(), np.roll(corners, -1, 1).ravel()], 1)[rim]
+        # a cut that nothing ends at opens nothing
+        start, end = ends[~np.isin(ends @ [1, n], ends @ [n, 1])].T
+        if 2 * n - (3 * len(faces) + len(start)) + 2 * len(faces) != 2:
+            return None
+        return single_loop(start, end)
+
+    def _cut_around(self, is_chosen: Bools, chart: Chart) -> Bools:
         """Tell which edges are cut: all between leaves but those that are closed inside a chart, (e,)."""
         cut = self._sides[:, 0] != self._sides[:, 1]
         for chain in self._chains:
             pair = self._sides[chain[0]]
-            if np.isin(pair, leaves).all():
+            if is_chosen[pair].all():
                 cut[self._glued(chain, pair, chart)] = False
         return cut
 
     def _glued(self, chain: Ints, pair: Ints, chart: Chart) -> Ints:
         """Give the stretch of a seam that is closed, going by the seam's nearest place on the proxy."""
-        from scipy.spatial import cKDTree
-
         rows = np.flatnonzero((self._light_sides == pair).all(1))
         if not len(rows):
             return chain[:0]
         corners = np.full((len(self._G), 3), -1)
         corners[chart.faces] = chart.corners
         closed = _closed(self._light, corners)[rows]
-        _, near = cKDTree(self._W[self._light.E[rows]].mean(1)).query(self._V[self._e.E[chain]].mean(1))
+        near = _nearest(self._V[self._e.E[chain]].mean(1), self._W[self._light.E[rows]].mean(1))
         length = np.linalg.norm(np.diff(self._V[self._e.E[chain]], axis=1)[:, 0], axis=1)
         return chain[_best_stretch(np.where(closed[near], length, -length))]
 
@@ -105,6 +134,13 @@ class Carrier:
             total[row] += transfer_uv(self._V[kept], self._W[light_kept], H, uv)
             count[row] += 1
         return total / count[:, None]
+
+
+def _nearest(points: Floats, others: Floats) -> Ints:
+    """Give the nearest of some other points for each point, (n,)."""
+    # the square of the distance but for what all others share
+    off = (others**2).sum(1) - 2 * points @ others.T
+    return off.argmin(1)
 
 
 def _sides(e: Edges, label: Ints) -> Ints:

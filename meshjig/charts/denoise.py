@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.measure import vertex_normals
-from meshjig.topology import edges
+from meshjig.topology import Edges, edges
 
-__all__ = ["denoise"]
+__all__ = ["denoise", "smoothed"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -42,24 +42,49 @@ def denoise(V: Floats, F: Ints) -> Floats:
     ----------
     Taubin, "A Signal Processing Approach to Fair Surface Design", 1995.
     """
-    from scipy.sparse import coo_matrix, diags
-
     e = edges(F)
-    n = len(V)
-    W = coo_matrix((np.ones(len(e.E)), e.E.T), shape=(n, n)).tocsr()
-    W = W + W.T
-    mean = diags(1 / np.maximum(np.asarray(W.sum(1)).ravel(), 1)) @ W
+    mean = _mean(len(V), e.E)
     if not _is_noisy(V, F, e.E, mean):
         return V
-    free = np.ones((n, 1))
-    free[e.E[e.n_faces == 1].ravel()] = 0
-    smooth = V
-    for _ in range(_PASSES):
-        for step in (_SHRINK, _GROW):
-            smooth = smooth + step * free * (mean @ smooth - smooth)
+    smooth = _taubin(V, e, mean, _PASSES)
     N = vertex_normals(smooth, F)
     moved: Floats = V + np.einsum("ij,ij->i", smooth - V, N)[:, None] * N
     return moved
+
+
+def smoothed(V: Floats, F: Ints, passes: int) -> Floats:
+    """Smooth a surface, noisy or not, a little; a border stays where it is.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold, using every vertex
+    passes : int
+
+    Returns
+    -------
+    V : (n, 3) float64, mm
+    """
+    e = edges(F)
+    return _taubin(V, e, _mean(len(V), e.E), passes)
+
+
+def _mean(n: int, E: Ints) -> Any:
+    """Give the matrix (n, n) that takes values at vertices to the mean of their neighbours'."""
+    from scipy.sparse import coo_matrix, diags
+
+    W = coo_matrix((np.ones(len(E)), E.T), shape=(n, n)).tocsr()
+    W = W + W.T
+    return diags(1 / np.maximum(np.asarray(W.sum(1)).ravel(), 1)) @ W
+
+
+def _taubin(V: Floats, e: Edges, mean: Any, passes: int) -> Floats:
+    free = np.ones((len(V), 1))
+    free[e.E[e.n_faces == 1].ravel()] = 0
+    for _ in range(passes):
+        for step in (_SHRINK, _GROW):
+            V = V + step * free * (mean @ V - V)
+    return V
 
 
 def _is_noisy(V: Floats, F: Ints, E: Ints, mean: Any) -> bool:

@@ -32,8 +32,9 @@ def gate_share(V: Floats, F: Ints, uv: Floats, F_uv: Ints, at: float) -> float:
     good = plane > 1e-12 * plane.max(initial=0)
     metric = np.zeros((len(F), 3))
     metric[good] = _metric(V, F[good], uv, F_uv[good])
-    place = np.floor(uv[F_uv].mean(1) / at).astype(np.int64)
-    _, cell = np.unique(place, axis=0, return_inverse=True)
+    place = np.floor((uv[F_uv[:, 0]] + uv[F_uv[:, 1]] + uv[F_uv[:, 2]]) / (3 * at)).astype(np.int64)
+    place -= place.min(0)
+    cell = place[:, 0] * (int(place[:, 1].max(initial=0)) + 1) + place[:, 1]
     weight = np.bincount(cell, plane * good)
     total = np.stack([np.bincount(cell, plane * metric[:, k]) for k in range(3)], 1)
     mean = total / np.maximum(weight, 1e-300)[:, None]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshjig.charts.chart import Chart
-from meshjig.types import Atlas, Floats, Mesh
+from meshjig.types import Atlas, Floats, Ints, Mesh
 
 __all__ = ["lay_out", "lie_along", "shelves"]
 
@@ -61,7 +61,7 @@ def lie_along(uv: Floats) -> Floats:
     """
     import shapely
 
-    box = shapely.minimum_rotated_rectangle(shapely.multipoints(uv))
+    box = shapely.minimum_rotated_rectangle(shapely.multipoints(uv[_may_be_corners(uv)]))
     corners = shapely.get_coordinates(box)
     if len(corners) >= 4:
         sides = np.diff(corners[:3], axis=0)
@@ -70,6 +70,20 @@ def lie_along(uv: Floats) -> Floats:
         uv = uv @ np.array([[c, -s], [s, c]])
     moved: Floats = uv - uv.min(0)
     return moved
+
+
+def _may_be_corners(uv: Floats) -> Ints:
+    """Leave out points that can't be corners of the convex hull, (k,)."""
+    slant = np.stack([uv[:, 0], uv[:, 1], uv.sum(1), uv[:, 0] - uv[:, 1]], 1)
+    far = np.append(slant.argmax(0), slant.argmin(0))
+    middle = uv[far].mean(0)
+    order = far[np.argsort(np.arctan2(*(uv[far] - middle).T[::-1]))]
+    start, side = uv[order], np.roll(uv[order], -1, 0) - uv[order]
+    inside = np.ones(len(uv), bool)
+    for (x, y), (dx, dy) in zip(start, side, strict=True):
+        if dx or dy:
+            inside &= dx * (uv[:, 1] - y) - dy * (uv[:, 0] - x) > 0
+    return np.flatnonzero(~inside)
 
 
 def shelves(size: Floats, margin: float = 5.0) -> Floats:

@@ -4,14 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from meshjig.charts.carry import Carrier
+from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
-from meshjig.charts.transfer import transfer_labels
-from meshjig.measure import face_areas
-from meshjig.topology import compact, components
-from meshjig.types import Bools, Floats, Ints
+from meshjig.types import Floats, Ints
 
 __all__ = ["own_charts"]
 
@@ -65,59 +62,8 @@ def own_charts(
         charts = [one for chart in glued for one in _flattened_by(W, G, chart, method, leaves, light_leaf)]
     if G is F:
         return Charting(charts, method, light_leaf)
-    carrier = Carrier(V, F, transfer_labels(V, F, W, G, light_leaf), W, G, light_leaf)
-    carried: list[Chart] = []
-    for chart in charts:
-        made, missing = _carried(carrier, chart, leaves, light_leaf)
-        carried += made
-        for number in missing:
-            region = np.flatnonzero(carrier.leaf == number)
-            anew = _sound_charts(V, F, [region], method, seed)
-            pulled = carrier.carry(leaves[number], may_lose=1.0)
-            carried += anew if pulled is None or _flat(V, F, anew) > _flat(V, F, [pulled]) else [pulled]
-    return Charting(carried, method, carrier.leaf)
-
-
-def _flat(V: Floats, F: Ints, charts: list[Chart]) -> float:
-    """Give the area of charts that lies within FLAT_LIMITS, mm2."""
-    total = 0.0
-    for chart in charts:
-        X = np.empty((len(chart.uv), 3))
-        X[chart.corners] = V[F[chart.faces]]
-        total += flat_share(X, chart.corners, chart.uv) * float(face_areas(V, F[chart.faces]).sum())
-    return total
-
-
-def _carried(
-    carrier: Carrier, chart: Chart, leaves: list[Chart], leaf: Ints
-) -> tuple[list[Chart], list[int]]:
-    """Carry a chart whole, or what hangs together without the leaves that can't be carried, or its leaves.
-
-    The second list holds the leaves that can't be carried.
-    """
-    whole = carrier.carry(chart)
-    if whole is not None:
-        return [whole], []
-    numbers = np.unique(leaf[chart.faces]).tolist()
-    alone = {number: carrier.carry(leaves[number]) for number in numbers} if len(numbers) > 1 else {}
-    sound = [number for number in numbers if alone.get(number) is not None]
-    made: list[Chart] = []
-    for part in _parts(chart, np.isin(leaf[chart.faces], sound)):
-        inside = np.unique(leaf[part.faces]).tolist()
-        glued = carrier.carry(part) if 1 < len(inside) < len(numbers) else None
-        made += [glued] if glued is not None else [one for k in inside if (one := alone[k]) is not None]
-    return made, [number for number in numbers if number not in sound]
-
-
-def _parts(chart: Chart, kept: Bools) -> list[Chart]:
-    """Give the parts that hang together of a chart of which only some faces (k,) are kept."""
-    n, part = components(chart.corners[kept])
-    parts = []
-    for k in range(n):
-        rows = np.flatnonzero(kept)[part == k]
-        corners, own = compact(chart.corners[rows])
-        parts.append(Chart(chart.faces[rows], chart.uv[own], corners))
-    return parts
+    carried, full_leaf = carry_over(V, F, light, light_leaf, charts, method, seed)
+    return Charting(carried, method, full_leaf)
 
 
 def _sound_charts(

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.border import border_loop
-from meshjig.charts.untangle import untangle
-from meshjig.topology import edges
+from meshjig.charts.untangle import faces_around, untangle
+from meshjig.topology import compact, edges
 
 __all__ = ["part"]
 
@@ -13,7 +13,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-def part(V: Floats, F: Ints, uv: Floats, rounds: int = 12) -> Floats:
+_RINGS = 20  # of faces around crossing borders that may be moved
+
+
+def part(V: Floats, F: Ints, uv: Floats, rounds: int = 12, border: Ints | None = None) -> Floats:
     """Pull crossing borders inward, each into its own side, until they cross no more.
 
     Parameters
@@ -22,30 +25,38 @@ def part(V: Floats, F: Ints, uv: Floats, rounds: int = 12) -> Floats:
     F : (m, 3) int64, one disc that uses every vertex
     uv : (n, 2) float64, mm, without mirrored faces
     rounds : int
+    border : (b,) int64, its border loop, where the caller has it
 
     Returns
     -------
     uv : (n, 2) float64, mm. Borders may still cross, or faces be mirrored: the caller checks.
     """
-    from scipy.sparse import coo_matrix, diags
-
-    loop = border_loop(F)
+    loop = border_loop(F) if border is None else border
     crossing = _crossing(uv[loop])
-    if not len(crossing):
-        return uv
-    E, n = edges(F).E, len(V)
-    W = coo_matrix((np.ones(len(E)), E.T), shape=(n, n))
-    W = (W + W.T).tocsr()
-    mean = diags(1 / np.asarray(W.sum(1)).ravel()) @ W
     for width in range(1, rounds + 1):
-        near = (crossing[:, None] + np.arange(-width, width + 2)).ravel() % len(loop)
-        pulled = np.unique(loop[near])
-        uv = uv.copy()
-        uv[pulled] = (uv[pulled] + mean[pulled] @ uv) / 2
-        uv = untangle(V, F, uv)
-        crossing = _crossing(uv[loop])
         if not len(crossing):
             break
+        near = (crossing[:, None] + np.arange(-width, width + 2)).ravel() % len(loop)
+        uv = _pulled(V, F, uv, np.unique(loop[near]))
+        crossing = _crossing(uv[loop])
+    return uv
+
+
+def _pulled(V: Floats, F: Ints, uv: Floats, pulled: Ints) -> Floats:
+    """Move vertices half-way to the mean of their neighbours, and turn back what that mirrors near them."""
+    from scipy.sparse import coo_matrix
+
+    chosen = np.zeros(len(V), bool)
+    chosen[pulled] = True
+    touching = np.any(chosen[F], axis=1)
+    H, kept = compact(F[faces_around(F, touching, _RINGS)])
+    own, E = np.flatnonzero(chosen[kept]), edges(H).E
+    W = coo_matrix((np.ones(len(E)), E.T), shape=(len(kept),) * 2).tocsr()
+    W = (W + W.T)[own]
+    local = uv[kept]
+    local[own] = (local[own] + (W @ local) / np.asarray(W.sum(1)).reshape(-1, 1)) / 2
+    uv = uv.copy()
+    uv[kept] = untangle(V[kept], H, local)
     return uv
 
 

@@ -8,7 +8,7 @@ from meshjig.errors import ChartError
 from meshjig.measure import vertex_normals
 from meshjig.topology import edges, fans
 
-__all__ = ["proxy"]
+__all__ = ["coarsened", "proxy"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -40,8 +40,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     """
     if len(F) <= 1.5 * n_faces:
         return V, F
-    while len(F) > _HEAVY * n_faces and (light := coarsen(V, F)) is not None:
-        V, F = light
+    V, F = coarsened(V, F, _HEAVY * n_faces)
     try:
         import pymeshlab
     except ImportError as error:
@@ -64,6 +63,13 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     if not len(G) or edges(G).n_faces.max() > 2:
         return V, F
     return np.ascontiguousarray(mesh.vertex_matrix()[origin]), G
+
+
+def coarsened(V: Floats, F: Ints, n_faces: int) -> tuple[Floats, Ints]:
+    """Make a mesh coarser, by four at a time, until it has n_faces at most; itself where that can't be."""
+    while len(F) > n_faces and (light := coarsen(V, F)) is not None:
+        V, F = light
+    return V, F
 
 
 def _roughness(V: Floats, F: Ints) -> float:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from meshjig.topology import edges, next_halfedge
 
-__all__ = ["Region", "Regions"]
+__all__ = ["Region", "Regions", "single_loop"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -51,11 +51,11 @@ class Regions:
         if len(kept) - n_edges + len(faces) != 1:
             return None
         self._number[kept] = np.arange(len(kept))
-        loop = _single_loop(self._number[start], self._number[end])
+        loop = single_loop(self._number[start], self._number[end])
         return None if loop is None else Region(self._number[corners], kept, loop)
 
 
-def _single_loop(start: Ints, end: Ints) -> Ints | None:
+def single_loop(start: Ints, end: Ints) -> Ints | None:
     """Order the edges of a rim; None where they make no single loop without pinches."""
     follows = dict(zip(start.tolist(), end.tolist(), strict=True))
     if len(follows) != len(start) or not follows:

@@ -22,7 +22,7 @@ _BACK = 12  # rounds in which mirrored faces draw their surroundings back
 _THINNEST = 1e-2  # lesser stretch of a face below which it is drawn back
 
 
-def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3) -> Floats:
+def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3, border: Ints | None = None) -> Floats:
     """Bring faces around those that stretch too much nearer to rigid copies.
 
     A few steps of ARAP whose equations are solved only roughly, by conjugate gradients from the
@@ -36,6 +36,7 @@ def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3) -> Floats:
     F : (m, 3) int64, one disc that uses every vertex
     uv : (n, 2) float64, mm, without mirrored faces
     rounds : int
+    border : (b,) int64, its border vertices, where the caller has them
 
     Returns
     -------
@@ -54,7 +55,7 @@ def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3) -> Floats:
     H, kept = compact(F[near])
     stays = np.zeros(len(V), bool)
     stays[F[~near].ravel()] = True
-    stays[F.ravel()[border_halfedges(F)]] = True
+    stays[F.ravel()[border_halfedges(F)] if border is None else border] = True
     scale = np.sqrt(face_areas(uv, F).sum() / max(area.sum(), 1e-300))
     uv = uv.copy()
     uv[kept] = _settled(V[kept] * scale, H, uv[kept], ~stays[kept], rounds)

@@ -30,14 +30,19 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
     from scipy.sparse.csgraph import connected_components
     from scipy.sparse.linalg import spsolve
 
-    E, n = edges(F).E, len(V)
-    flat, long = (np.linalg.norm(X[E[:, 0]] - X[E[:, 1]], axis=1) for X in (uv, V))
-    sound = E[flat <= _LONGEST * long]
+    n = len(V)
+    sides = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
+    flat, long = (((X[sides[:, 1]] - X[sides[:, 0]]) ** 2 @ np.ones(X.shape[1])) for X in (uv, V))
+    is_sound = flat <= _LONGEST**2 * long
+    if is_sound.all():
+        return uv
+    sound = sides[is_sound]
     graph = coo_matrix((np.ones(len(sound)), sound.T), shape=(n, n))
     _, part = connected_components(graph, directed=False)
     stray = part != np.bincount(part).argmax()
     if not stray.any():
         return uv
+    E = edges(F).E
     W = coo_matrix((np.ones(len(E)), E.T), shape=(n, n)).tocsr()
     W = W + W.T
     L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()[stray]

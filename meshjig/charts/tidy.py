@@ -14,7 +14,7 @@ Bools = NDArray[np.bool_]
 _ROUNDS = 60
 
 
-def tidy(F: Ints, label: Ints, area: Floats) -> Ints:
+def tidy(F: Ints, label: Ints, area: Floats, twin: Ints | None = None) -> Ints:
     """Let every label be one region with a plain border, as far as small changes can do it.
 
     Parameters
@@ -22,12 +22,13 @@ def tidy(F: Ints, label: Ints, area: Floats) -> Ints:
     F : (m, 3) int64, manifold, one component
     label : (m,) int64; -1 where it is unknown
     area : (m,) float64, weighs the parts of a label against each other
+    twin : (3 m,) int64, of the half-edges, where the caller has them
 
     Returns
     -------
     label : (m,) int64, no -1 left where any label was given
     """
-    twin = edges(F).twin
+    twin = edges(F).twin if twin is None else twin
     around = np.where(twin == np.arange(len(twin)), -1, twin // 3).reshape(-1, 3)
     label = _without_islands(label.copy(), area, around)
     for n in range(_ROUNDS):

@@ -7,7 +7,7 @@ from meshjig.charts.dual import Dual, dual
 from meshjig.charts.smooth import diffusion
 from meshjig.charts.tidy import tidy
 from meshjig.measure import area_vectors, barycentric, interpolate
-from meshjig.topology import is_disc, next_halfedge
+from meshjig.topology import Edges, edges, next_halfedge
 
 __all__ = ["transfer_labels", "transfer_uv"]
 
@@ -15,16 +15,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
-_REACH = 0.02  # of the root of the area: a proxy's faces show as teeth along its borders
+_REACHES = (0.02, 0.005, 0.0)  # of the root of the area: a proxy's faces show as teeth along its borders
 _FOLD = 0.75  # cosine between normals; over sharper edges shares are not averaged
-_FINER = 8  # times the faces of the proxy: there, even its thinnest parts are many faces wide
 _SURE = 0.999  # the share from which a label has no rival
 _LONG = 2.0  # times that reach: sides of faces so large that their borders are straight already
 _BEYOND = 20.0  # barycentric coordinate: how far beyond a face its plane is followed
 _AT_ONCE = 2_000_000  # numbers to hold in memory
 
 
-def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints:
+def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints, e: Edges | None = None) -> Ints:
     """Give each face of a mesh the label that its place on a proxy has, with borders made straight.
 
     On the proxy, labels diffuse into shares; they are interpolated like colours, so that borders of
@@ -35,26 +34,37 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints) -> Ints
     V, F : (n, 3) float64, mm, and (m, 3) int64, the mesh, one component
     W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
     label : (m',) int64, 0 to k - 1
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
     label : (m,) int64. A label may come out empty, or as no disc: the caller checks.
     """
-    smooth = _carried(V, F, W, G, _shares(W, G, label))
-    if len(F) > _FINER * len(G) or not _broken(F, smooth, G, label):
-        return smooth
-    plain = np.repeat(np.eye(int(label.max()) + 1)[label][:, None], 3, 1)
-    hard = _carried(V, F, W, G, plain)
-    return hard if _broken(F, hard, G, label) < _broken(F, smooth, G, label) else smooth
+    twin = (edges(F) if e is None else e).twin
+    k = int(label.max()) + 1
+    wanted = _euler_numbers(G, edges(G).twin, label, k)
+    best, fewest = label, k + 1
+    for reach in _REACHES:  # farther, strips get lost through which a label is a disc
+        carried = _carried(V, F, twin, W, G, _shares(W, G, label, reach))
+        broken = int((_euler_numbers(F, twin, carried, k) != wanted).sum())
+        if broken < fewest:
+            best, fewest = carried, broken
+        if not broken:
+            break
+    return best
 
 
-def _broken(F: Ints, carried: Ints, G: Ints, label: Ints) -> int:
-    """Count the labels that are discs on the proxy and none on the mesh."""
-    labels = range(int(label.max()) + 1)
-    return sum(is_disc(G[label == k]) and not is_disc(F[carried == k]) for k in labels)
+def _euler_numbers(F: Ints, twin: Ints, label: Ints, k: int) -> Ints:
+    """Give the Euler number of each label's faces, (k,)."""
+    touches = np.zeros((int(F.max()) + 1, k), bool)
+    touches[F, label[:, None]] = True
+    h = np.arange(len(twin))
+    inner = label[h // 3][(twin > h) & (label[h // 3] == label[twin // 3])]
+    corners = touches.sum(0)
+    return corners - 2 * np.bincount(label, minlength=k) + np.bincount(inner, minlength=k)
 
 
-def _carried(V: Floats, F: Ints, W: Floats, G: Ints, share: Floats) -> Ints:
+def _carried(V: Floats, F: Ints, twin: Ints, W: Floats, G: Ints, share: Floats) -> Ints:
     """Give each face the label with most share where it is nearest to the proxy."""
     best = share.argmax(2)
     sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
@@ -71,19 +81,21 @@ def _carried(V: Floats, F: Ints, W: Floats, G: Ints, share: Floats) -> Ints:
     same_side = np.einsum("ij,ij->i", N, seen) >= 0  # of a thin sheet
     if same_side.any():
         known[~same_side] = -1
-    return tidy(F, known, np.linalg.norm(N, axis=1))
+    return tidy(F, known, np.linalg.norm(N, axis=1), twin)
 
 
-def _shares(W: Floats, G: Ints, label: Ints) -> Floats:
+def _shares(W: Floats, G: Ints, label: Ints, reach: float) -> Floats:
     """Give the share of every label at every corner of the proxy's faces, (m', 3, k)."""
+    own = np.eye(int(label.max()) + 1)[label]
+    if not reach:
+        return np.repeat(own[:, None], 3, 1)
     graph = dual(W, G)
-    share = diffusion(graph, _REACH)(label)
-    own = np.eye(share.shape[1])[label]
+    share = diffusion(graph, reach)(label)
     inside, thin = _inside_and_thin(G, label)
     share[inside] = own[inside]
     share = _corner_shares(graph, G, share)
     side = np.linalg.norm(W[G] - W[np.roll(G, -1, 1)], axis=2).max(1)
-    hard = thin | (side > _LONG * _REACH * np.sqrt(graph.area.sum()))
+    hard = thin | (side > _LONG * reach * np.sqrt(graph.area.sum()))
     share[hard] = own[hard][:, None]
     return share
 

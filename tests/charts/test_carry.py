@@ -2,10 +2,10 @@ import igl
 import numpy as np
 import pytest
 
+from meshjig.charts.carried import _carried
 from meshjig.charts.carry import Carrier
 from meshjig.charts.chart import Chart, plain
 from meshjig.charts.cuts import cut_open
-from meshjig.charts.own import _carried
 from meshjig.topology import compact, edges, is_disc
 from tests.charts.helpers import all_turn_left
 from tests.meshes import cylinder, noisy
@@ -80,15 +80,14 @@ def test_a_region_that_is_no_disc_is_refused():
 def test_a_chart_without_the_leaf_that_can_not_be_carried_is_carried_in_parts():
     V, F = cylinder(1000)
     label, tube = unrolled_tube(V, F)
-    leaves = [plain(F, np.flatnonzero(label == k), np.zeros((0, 2))) for k in range(4)]
 
     class Refuses2(Carrier):
         def carry(self, chart):
             return None if (label[chart.faces] == 2).any() else chart
 
     carrier = Refuses2(V, F, label, V, F, label)
-    made, missing = _carried(carrier, tube, leaves, label)
-    assert missing == [2]
+    made, missing = _carried(carrier, tube, label)
+    assert [np.unique(label[part.faces]).tolist() for part in missing] == [[2]]
     # 2 and 3 lie opposite 0 and 1, which are cut apart; 0, without 2, hangs on nothing any more
     assert sorted(np.unique(label[chart.faces]).tolist() for chart in made) == [[0], [1, 3]]
 
@@ -96,12 +95,11 @@ def test_a_chart_without_the_leaf_that_can_not_be_carried_is_carried_in_parts():
 def test_a_chart_whose_leaves_can_all_be_carried_but_not_together_falls_into_them():
     V, F = cylinder(1000)
     label, tube = unrolled_tube(V, F)
-    leaves = [plain(F, np.flatnonzero(label == k), np.zeros((0, 2))) for k in range(4)]
 
     class RefusesAll(Carrier):
         def carry(self, chart):
             return chart if len(np.unique(label[chart.faces])) == 1 else None
 
-    made, missing = _carried(RefusesAll(V, F, label, V, F, label), tube, leaves, label)
+    made, missing = _carried(RefusesAll(V, F, label, V, F, label), tube, label)
     assert missing == []
     assert sorted(label[chart.faces[0]] for chart in made) == [0, 1, 2, 3]
