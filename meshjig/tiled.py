@@ -94,18 +94,27 @@ def _cut(
         graph = region_graph(cut)
         capstones = np.unique(cut.region[np.isin(cut.label, tiling.capstones)])
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece, capstones)
-        if options.clearance_method == "solid":  # elsewhere the gap is a band along cuts and seams alone
-            isthmus = options.clearance + min(options.min_wall / 2, THIN * choice.size)
-            cut, stitching = divide_at_isthmuses(cut, stitching, isthmus, options.min_piece)
     if tiling.poles:
         stitching = replace(stitching, facts={**stitching.facts, "poles": tiling.poles})
     return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)
 
 
 def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
-    """Even out seams and give pieces that meet along them their knobs, drawn anew at every turn."""
+    """Even out seams, give pieces that meet along them their knobs, and cut off what hangs on by little.
+
+    Knobs on seams are drawn anew at every turn.
+    """
+    if options.clearance_method == "domain":  # as published
+        return layout
     with stages("seams"):
-        return knobs_over_seams(layout, options, _random(options), options.seed + turn)
+        layout = knobs_over_seams(layout, options, _random(options), options.seed + turn)
+    if options.clearance_method != "solid":  # there the gap is a band along cuts and seams alone
+        return layout
+    with stages("stitch"):
+        size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
+        isthmus = options.clearance + min(options.min_wall / 2, THIN * size)
+        cut, stitching = divide_at_isthmuses(layout.cut, layout.stitching, isthmus, options.min_piece)
+        return replace(layout, cut=cut, stitching=stitching)
 
 
 def _random(options: Options) -> float:

@@ -274,5 +274,5 @@ def test_an_interrupt_ends_with_a_sentence_and_leaves_nothing(ball, tmp_path, wa
 
 def test_a_closed_surface_in_one_piece_is_refused(ball, tmp_path):
     assert_one_sentence(
-        run("make", ball, "-o", tmp_path / "out", "--pieces", 1, "--layout", "tiles"), "hollow"
+        run("make", ball, "-o", tmp_path / "out", "--pieces", 1, "--charts", "single"), "hollow"
     )

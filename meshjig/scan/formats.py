@@ -25,8 +25,12 @@ def check_whole(path: Path, kind: str) -> None:
     Raises
     ------
     InputError
-        The file is cut off.
+        The file is cut off, or an OBJ file is no text.
     """
+    if kind == "obj" and b"\0" in path.read_bytes():
+        raise InputError(
+            f"{path} is damaged: OBJ is a format of text, and it holds none", hint="export it again"
+        )
     look = {"stl": _stl, "glb": _glb, "3mf": _3mf, "obj": _obj, "ply": _ply, "off": _off}.get(kind)
     missing = look(path) if look else ""
     if missing:
