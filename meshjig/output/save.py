@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.errors import OptionError
 from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece
@@ -17,6 +18,7 @@ __all__ = ["FORMATS", "save_puzzle"]
 
 FORMATS = ("stl", "ply", "3mf", "obj", "glb")
 CORE = "core"  # its folder
+WORTH_A_CHILD = 60_000  # faces; below, a child process takes longer to start than it saves
 
 
 def save_puzzle(
@@ -70,21 +72,11 @@ def save_puzzle(
     if unknown:
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
     seconds = dict(report["timings_s"])
-    with replace_folder(directory) as folder:
+    with replace_folder(directory) as folder, _drawn(folder, pieces, preview, turntable, explode) as pictures:
         with _lap(seconds, "write"):
             _write_meshes(folder, pieces, formats, explode)
             _write_core(folder, core)
             _write_curves(folder, plane_curves, space_curves)
-        if preview:
-            from meshjig.output.preview import preview as draw
-
-            with _lap(seconds, "preview"):
-                draw(pieces, folder / "preview.png", apart=explode)
-        if turntable:
-            from meshjig.output.turntable import write_turntable
-
-            with _lap(seconds, "turntable"):
-                write_turntable(folder / "turntable.gif", pieces)
         plates: dict[str, int] | None = None
         if plate is not None:
             from meshjig.output.plates import write_plates
@@ -101,6 +93,7 @@ def save_puzzle(
 
             with _lap(seconds, "viewer"):
                 write_viewer(folder / FILE, pieces, report, plates=plates)
+        seconds |= pictures.result()
         if guide:
             with _lap(seconds, "guide"):
                 _write_guide(folder, pieces, report, plates)
@@ -109,6 +102,37 @@ def save_puzzle(
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written
+
+
+@contextmanager
+def _drawn(
+    folder: Path, pieces: Sequence[Piece], preview: bool, turntable: bool, explode: float
+) -> Iterator[Background]:
+    """Draw pictures beside the caller, who asks for the seconds they took once they are needed."""
+    small = sum(len(piece.F) for piece in pieces) < WORTH_A_CHILD
+    none = not (preview or turntable)
+    child = Background(_draw, folder, list(pieces), preview, turntable, explode, alone=small or none)
+    try:
+        yield child
+    finally:
+        child.cancel()
+
+
+def _draw(
+    folder: Path, pieces: Sequence[Piece], preview: bool, turntable: bool, explode: float
+) -> dict[str, float]:
+    seconds: dict[str, float] = {}
+    if preview:
+        from meshjig.output.preview import preview as draw
+
+        with _lap(seconds, "preview"):
+            draw(pieces, folder / "preview.png", apart=explode)
+    if turntable:
+        from meshjig.output.turntable import write_turntable
+
+        with _lap(seconds, "turntable"):
+            write_turntable(folder / "turntable.gif", pieces)
+    return seconds
 
 
 def _normals(pieces: Sequence[Piece]) -> Floats | None:
