@@ -19,6 +19,7 @@ from meshjig.types import Mesh, Scan
 
 __all__ = ["atlas", "clean_scan", "describe_charts"]
 
+KIND = "set of charts"  # what its folder holds
 WIDEST_HOLE = 0.1  # of the largest extent: few and large pieces must not close the rim of a vase
 
 
@@ -62,14 +63,15 @@ def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> 
     dict, the atlas' facts
     """
     if folder is not None:
-        check_target(folder)
+        check_target(folder, KIND)
     made = atlas(mesh, options=options)
     if folder is not None:
         from meshjig.output.atlas_sheet import draw_atlas
 
-        with replace_folder(folder) as scratch:
+        with replace_folder(folder, KIND) as scratch:
             draw_atlas(made, scratch)
-            write_report(scratch / "report.json", {"meshjig": meshjig_version(), "charts": made.facts})
+            report = {"meshjig": meshjig_version(), "kind": KIND, "charts": made.facts}
+            write_report(scratch / "report.json", report)
     return made.facts
 
 

@@ -17,6 +17,7 @@ from meshjig.terminal import (
     INTERRUPTED,
     USAGE,
     as_lines,
+    leave_interrupted,
     listen_for_interrupts,
     progress_bar,
     say,
@@ -74,7 +75,7 @@ def make(
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
-    """Make a puzzle: pieces, 3MF, preview, viewer and report."""
+    """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
     with sentences(verbose, quiet):
         options = _options(config, flags)
         if dry_run:
@@ -212,7 +213,11 @@ def tiles(
             known = dict(family_names())
             print(json.dumps(known, indent=2) if as_json else as_lines(known))
             return
-        unit = get_family(name, seed)
+        try:
+            unit = get_family(name, seed)
+        except OptionError as error:
+            say(f"meshjig: {error}")
+            raise typer.Exit(USAGE) from None
         if svg is not None:
             from meshjig.output.folder import write_text
             from meshjig.tiling.draw import draw_svg
@@ -229,7 +234,11 @@ def main() -> None:
         app()
     except KeyboardInterrupt:
         say("meshjig: interrupted; nothing was written")
-        raise SystemExit(INTERRUPTED) from None
+        leave_interrupted()
+    except SystemExit as ending:
+        if ending.code == INTERRUPTED:
+            leave_interrupted()
+        raise
 
 
 def _options(config: Path | None, flags: dict[str, Any]) -> Options:

@@ -108,6 +108,7 @@ def save_coupon(directory: str | Path, options: Options) -> dict[str, Any]:
     size = np.ptp(np.concatenate([piece.V for piece in pieces]), axis=0)
     report = {
         "meshjig": meshjig_version(),
+        "kind": "coupon",
         "coupon": coupon_clearances(options.clearance),
         "how_to": HOW_TO,
         "size_mm": size,
@@ -116,7 +117,7 @@ def save_coupon(directory: str | Path, options: Options) -> dict[str, Any]:
         "pieces": [{"id": i + 1, "name": piece.name, "neighbours": []} for i, piece in enumerate(pieces)],
         "ok": True,
     }
-    with replace_folder(directory) as folder:
+    with replace_folder(directory, "coupon") as folder:
         (folder / "pieces").mkdir()
         for piece in pieces:
             write_stl(folder / "pieces" / f"{piece.name}.stl", piece.V, piece.F, piece.name)

@@ -20,6 +20,8 @@ PROCESSES: dict[str, Preset] = {
 }
 
 
+OF_TILES = {"angle", "charts", "pole", "random_style", "tile"}
+OF_CELLS = {"crease_aware", "style"}
 _SAYINGS = {"extra_forbidden": "there is no such option", "too_short": "at least one is needed"}
 
 
@@ -52,7 +54,8 @@ class Options(BaseModel):
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
     layout: Literal["cells", "tiles"] = Field(
-        "cells", description="seam-free cells, or planar tiles on charts; tiles where charts or tile is given"
+        "cells",
+        description="seam-free cells, or planar tiles on charts; tiles where an option of theirs is given",
     )
     style: Literal["cvt", "quad"] = Field("cvt", description="cells: spread evenly, or four-sided")
     knob_size: FiniteFloat = Field(1.0, gt=0, le=2, description="cells: size of the knobs, relative")
@@ -114,8 +117,14 @@ class Options(BaseModel):
         process = given.get("process", "fdm")
         if not isinstance(process, str) or process not in known:
             raise ValueError(f"process: {process!r} is not known; known are {', '.join(known)}")
-        if "layout" not in given and given.keys() & {"charts", "tile"}:
+        if "layout" not in given and given.keys() & OF_TILES:
             given["layout"] = "tiles"
+        layout = given.get("layout", "cells")
+        for name in sorted(given.keys() & {"cells": OF_TILES, "tiles": OF_CELLS}.get(layout, set())):
+            if given[name] != cls.model_fields[name].default:
+                raise ValueError(
+                    f"{name.replace('_', '-')}: the layout of {layout} has none: leave out one of them"
+                )
         return {**known[process], **given}
 
     @classmethod

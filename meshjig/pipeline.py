@@ -19,9 +19,10 @@ from meshjig.measure import area_vectors, face_areas, sums
 from meshjig.options import Options
 from meshjig.output.coat import coats
 from meshjig.output.colours import colours
+from meshjig.output.estimate import estimate
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
-from meshjig.refusals import refuse_too_small_pieces, refuse_unknown_names
+from meshjig.refusals import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.report import assemble_report
 from meshjig.scan import refine_long_edges, self_crossings
 from meshjig.solid import Shell, kerf, shell
@@ -111,6 +112,7 @@ def make_puzzle(
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
     tints, outward = colours(len(solids), locks.pairs), _outer_normals(layout)
     pieces = _named(solids, names, tints, outward, scan, options)
+    report["material"] = estimate(pieces, options.process)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
     return Puzzle(pieces, report, curves, core)
 
@@ -153,6 +155,7 @@ def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:
     area = float(face_areas(mesh.V, mesh.F).sum())
     tile = options.piece_size or float(np.sqrt(area / options.pieces))
     refuse_too_small_pieces(tile, area, options)
+    refuse_small_plate(tile, options)
     return Mesh(*refine_long_edges(mesh.V, mesh.F, tile / 4))
 
 

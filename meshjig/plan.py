@@ -12,7 +12,7 @@ from meshjig.options import Options
 from meshjig.output.estimate import estimate_plates, estimate_volume
 from meshjig.output.plates import GAP
 from meshjig.output.printers import parse_plate
-from meshjig.refusals import refuse_too_small_pieces, refuse_unknown_names
+from meshjig.refusals import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 
 __all__ = ["plan_puzzle"]
 
@@ -45,6 +45,7 @@ def plan_puzzle(mesh: Any, options: Options) -> dict[str, Any]:
     area = float(face_areas(surface.V, surface.F).sum())
     size = options.piece_size or float(np.sqrt(area / options.pieces))
     refuse_too_small_pieces(size, area, options)
+    refuse_small_plate(size, options)
     n = max(1, round(area / size**2))
     plate = parse_plate(options.plate or COMMON_PLATE)
     return {

@@ -9,7 +9,7 @@ from typing import Any
 
 from meshjig.errors import InputError
 from meshjig.output import piece as named
-from meshjig.output.read import read_pieces
+from meshjig.output.read import read_core, read_pieces
 from meshjig.output.save import save_puzzle
 from meshjig.types import Floats
 
@@ -128,7 +128,7 @@ class Puzzle:
 
     @classmethod
     def load(cls, directory: str | Path) -> Puzzle:
-        """Read the pieces and the report of a puzzle back from its folder.
+        """Read the pieces, the core and the report of a puzzle back from its folder.
 
         Colours and curves stay in the files.
 
@@ -151,4 +151,5 @@ class Puzzle:
             Piece(name, V, F, GREY, listed[i] if i < len(listed) else i + 1)
             for i, (name, V, F) in enumerate(read_pieces(directory))
         ]
-        return cls(pieces, report)
+        core = [named.Piece(*part, GREY) for part in read_core(directory)]
+        return cls(pieces, report, core=core)

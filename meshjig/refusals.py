@@ -6,13 +6,15 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.options import Options
+from meshjig.output.plates import GAP
 from meshjig.output.printers import parse_plate
 from meshjig.tiling.outline import edge_ends
 from meshjig.tiling.registry import get_family
 
-__all__ = ["refuse_too_small_pieces", "refuse_unknown_names"]
+__all__ = ["refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
 
 FEWEST = 2  # pieces that a puzzle can have
+NARROWEST = 0.5  # of a piece's size: pieces as narrow as that are rare
 CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
 
 
@@ -43,6 +45,29 @@ def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:
         f"too narrow for a clearance of {options.clearance:g} mm",
         hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
     )
+
+
+def refuse_small_plate(size: float, options: Options) -> None:
+    """Refuse a plate on which no piece will fit.
+
+    Parameters
+    ----------
+    size : float, mm, edge of a square as large as a piece
+    options : Options
+
+    Raises
+    ------
+    OptionError
+        The sentence says what would do.
+    """
+    if options.plate is None:
+        return
+    plate = parse_plate(options.plate)
+    if min(plate.width, plate.depth) - 2 * GAP < NARROWEST * size:
+        raise OptionError(
+            f"plate: pieces of about {size:.2g} mm fit no plate of {plate}, with {GAP:g} mm around each",
+            hint="use a larger --plate, or ask for more pieces",
+        )
 
 
 def refuse_unknown_names(options: Options) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from meshjig.check import add_failures, judge, judge_core
-from meshjig.output.asked import read_asked
+from meshjig.output.asked import read_asked, read_missing
 from meshjig.output.read import read_core, read_pieces
 
 __all__ = ["rejudge"]
@@ -25,8 +25,9 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
     Returns
     -------
     dict
-        "checks", "names", "failures", "exempt": see `meshjig.check.Verdict`; "core", where there is one:
-        see `meshjig.check.judge_core`; "ok": bool.
+        "checks", "names", "failures", "exempt": see `meshjig.check.Verdict`; among the failures also
+        "missing", what a report lists and no file holds; "core", where there is one: see
+        `meshjig.check.judge_core`; "ok": bool.
 
     Raises
     ------
@@ -39,6 +40,9 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
     result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt
     core = read_core(list(paths))
+    missing = read_missing(list(paths), [name for name, _, _ in (*pieces, *core)])
+    if missing:
+        result["failures"]["missing"] = missing
     if core:
         result["core"], broken = judge_core(
             core, pieces, clearance=asked["clearance"], exempt_pieces=asked["exempt_pieces"]

@@ -70,6 +70,7 @@ def assemble_report(
     failures = verdict.failures | _broken_as_a_whole(checks)
     return {
         "meshjig": meshjig_version(),
+        "kind": "puzzle",
         "input": scan.facts,
         "options": options.model_dump(),
         "charts" if layout.cells is None else "cells": layout.atlas.facts

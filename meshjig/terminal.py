@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import logging
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import Any, NoReturn
 
 import typer
 
@@ -20,6 +21,7 @@ __all__ = [
     "INTERRUPTED",
     "USAGE",
     "as_lines",
+    "leave_interrupted",
     "listen_for_interrupts",
     "progress_bar",
     "say",
@@ -34,8 +36,19 @@ _interrupted = False
 
 
 def listen_for_interrupts() -> None:
-    """Remember Ctrl-C: a native call or an import that it falls into may swallow or disguise it."""
+    """Remember Ctrl-C, or a request to end: a native call or an import may swallow or disguise it."""
     signal.signal(signal.SIGINT, _on_interrupt)
+    signal.signal(signal.SIGTERM, _on_interrupt)  # from job queues and timeout
+
+
+def leave_interrupted() -> NoReturn:
+    """End the process at once, all cleaned up.
+
+    An interrupt that passed through code run by an extension module would else end it by the signal.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(INTERRUPTED)
 
 
 def say(sentence: str) -> None:
@@ -113,9 +126,20 @@ def tell_notes(report: dict[str, Any]) -> None:
     for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])
         say(f"meshjig: note: the limb around ({where}) mm is thin: {limb['pieces']} pieces would suit it")
-    necks = report["checks"]["thin_necks"]
+    necks, walls = report["checks"]["thin_necks"], report["checks"]["thin_walls"]
     if necks:
         say(f"meshjig: note: {necks} knobs have necks thinner than {options['min_neck']:g} mm")
+    if walls:
+        say(f"meshjig: note: {walls} pieces have places thinner than {options['min_wall']:g} mm")
+    bare = len(report.get("labels", {}).get("skipped", ()))
+    if bare:
+        say(f"meshjig: note: {bare} pieces have no room for their number (see labels in report.json)")
+    swaps = report.get("unique", {}).get("interchangeable_pieces", 0)
+    if swaps:
+        say(f"meshjig: note: {swaps} pairs of pieces could still change places: try another --seed")
+    for fact in report.get("plates", ()):
+        if fact["plate"] is None:
+            say(f"meshjig: note: {fact['why']}")
 
 
 def as_lines(facts: dict[str, Any], indent: str = "") -> str:

@@ -1,11 +1,12 @@
 """Labels and a core, from the options to the files and back."""
 
 import json
+import shutil
 
 import pytest
 from PIL import Image
 
-from meshjig import make_puzzle
+from meshjig import Puzzle, make_puzzle
 from meshjig.measure import mesh_volume
 from meshjig.rejudge import rejudge
 from tests.meshes import sphere
@@ -70,3 +71,18 @@ def test_exploded_scene_is_larger(folder):
 
     whole, apart = (trimesh.load(folder / f"{name}.glb").extents for name in ("puzzle", "exploded"))
     assert (apart > 1.3 * whole).all()
+
+
+def test_a_puzzle_keeps_its_core_when_loaded_and_saved(folder, report, tmp_path):
+    again = Puzzle.load(folder).save(tmp_path / "again", ("stl",), viewer=False, preview=False, guide=False)
+    assert len(list((again / "core").iterdir())) == report["core"]["parts"]
+
+
+def test_what_the_report_lists_and_no_file_holds_is_missing(folder, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    (copy / "pieces/piece_003.stl").unlink()
+    (copy / "core/core_1.stl").unlink()
+    found = rejudge([copy], {})
+    assert not found["ok"]
+    assert found["failures"]["missing"] == ["core_1", "piece_003"]

@@ -98,3 +98,23 @@ def test_a_config_file_holds_processes(toml, flags, tmp_path):
     (tmp_path / "shop.toml").write_text(toml)
     options = _options(tmp_path / "shop.toml", flags)
     assert (options.process, options.clearance, options.min_wall) == ("resin-x", 0.12, 0.6)
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [
+        ({"layout": "cells", "tile": "hex"}, "tile"),
+        ({"layout": "cells", "pole": "wedge"}, "pole"),
+        ({"layout": "tiles", "style": "quad"}, "style"),
+        ({"charts": "lscm", "crease_aware": True}, "crease-aware"),
+    ],
+)
+def test_what_the_layout_has_not_is_refused(given, name):
+    with pytest.raises(OptionError, match=f"^{name}: the layout of"):
+        Options.of(**given)
+
+
+def test_an_option_of_tiles_asks_for_them():
+    assert Options.of(pole="wedge").layout == "tiles"
+    assert Options.of(angle=10.0).layout == "tiles"
+    assert Options.of().layout == "cells"

@@ -31,5 +31,6 @@ def test_smaller_plates_are_more():
 def test_what_would_be_refused_is_refused():
     with pytest.raises(OptionError, match="too narrow"):
         plan_puzzle(sphere(2000), Options.of(pieces=9000, size=40))
-    with pytest.raises(OptionError, match="plate"):
-        plan_puzzle(sphere(2000), Options.of(plate="nowhere"))
+    for plate in ("nowhere", "5x5", "4x200"):
+        with pytest.raises(OptionError, match="plate"):
+            plan_puzzle(sphere(2000), Options.of(plate=plate))

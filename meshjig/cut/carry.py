@@ -41,7 +41,7 @@ def carry_pieces(
     chosen = order[last]  # the largest face of every part
     part_area = np.bincount(part, area, n_parts)
     middle = with_gap.V[F[chosen]].mean(1)
-    name = _piece_at(mesh, without_gap, piece_of_face, with_gap.parent[solid[chosen]], middle)
+    name = _piece_at(without_gap, piece_of_face, with_gap.parent[solid[chosen]], middle)
     n_pieces = int(piece_of_face.max()) + 1
     main = np.full(n_pieces, -1)
     by_area = np.argsort(part_area, kind="stable")
@@ -59,7 +59,7 @@ def carry_pieces(
     return piece, solid[~kept]
 
 
-def _piece_at(mesh: Mesh, cut: CutMesh, piece_of_face: Ints, parent: Ints, points: Floats) -> Ints:
+def _piece_at(cut: CutMesh, piece_of_face: Ints, parent: Ints, points: Floats) -> Ints:
     """Find the pieces of points in given faces of the mesh, (k,) int64."""
     order = np.argsort(cut.parent, kind="stable")
     start = np.searchsorted(cut.parent[order], parent)

@@ -66,7 +66,7 @@ def gap_outlines(
         [
             _buffered(curves, curve_width, clearance, ARC[method]),
             _buffered(seam_curves, seam_width[row], clearance, ARC[method]),
-            _carried_over(cut, curves, seams, seam_width, clearance, STEP[method]),
+            _carried_over(curves, seams, seam_width, clearance, STEP[method]),
         ]
     )
     return _as_outlines(_simple(shapely.union_all(shapes), SIMPLE[method] * clearance), clearance)
@@ -128,7 +128,7 @@ def _smooth(width: Floats, length: Floats, run: Ints) -> Floats:
 
 
 def _carried_over(
-    cut: CutMesh, curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float, step: float
+    curves: PlaneCurves, seams: SeamEdges, width: Floats, clearance: float, step: float
 ) -> np.ndarray:
     """Give discs beyond inner seams where a border on this side is nearer than half the clearance."""
     import shapely

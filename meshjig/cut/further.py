@@ -56,7 +56,7 @@ def cut_further(
     parent, place = _in_mesh(atlas.mesh, first, on, bary)
     vertex_face = np.concatenate([first.vertex_face, parent])
     vertex_bary = np.concatenate([first.vertex_bary, place])
-    cuts, source, param = _split(first, F, n + np.arange(len(on)), on, bary)
+    cuts, source, param = _split(first, n + np.arange(len(on)), on, bary)
 
     order = np.lexsort([second.cut_param[:, 0], second.cut_segment])
     added = number[second.cuts[order]]
@@ -99,7 +99,7 @@ def _in_mesh(mesh: Mesh, first: CutMesh, on: Ints, bary: Floats) -> tuple[Ints, 
     return parent, place / place.sum(1, keepdims=True)
 
 
-def _split(first: CutMesh, F: Ints, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, Ints, Floats]:
+def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, Ints, Floats]:
     """Divide cuts at new vertices (k,) on them, which lie at bary (k, 3) in faces of the cut mesh."""
     at_edge = np.flatnonzero((bary == 0).sum(1) == 1)
     opposite = (bary[at_edge] == 0).argmax(1)

@@ -55,9 +55,8 @@ def make_core(
     -------
     parts : list of (V, F), closed and oriented outward
     facts : dict
-        "parts": int; "volume_mm3": float; "gap_mm": {"min", "median"}: the least gap, and that of half the
-        core's area; "drains": int; "dropped": int, loose parts that were left out; "closed_mm2": area of the
-        model's openings.
+        "parts": int; "volume_mm3": float; "drains": int; "dropped": int, loose parts that were left out;
+        "closed_mm2": area of the model's openings.
 
     Raises
     ------
@@ -89,8 +88,6 @@ def make_core(
         raise SolidError(
             "the core can't be made, since the inner side of this model crosses itself", hint="leave it out"
         )
-    made, G = arrays(whole)
-    gap = _gap(made, G, around)
     drains = 0
     if wall > 0:
         whole, drains = hollowed(whole, around, aim, wall, cell, up)
@@ -100,7 +97,6 @@ def make_core(
     facts = {
         "parts": len(large),
         "volume_mm3": float(sum(part.volume() for part in large)),
-        "gap_mm": gap,
         "drains": drains,
         "dropped": n - 1 + len(parts) - len(large),
         "closed_mm2": closed,
@@ -112,17 +108,6 @@ def _no_room() -> SolidError:
     return SolidError(
         "there is no room for a core inside this model", hint="make it larger, or its walls thinner"
     )
-
-
-def _gap(V: Floats, F: Ints, around: Depth) -> dict[str, float]:
-    """Give the least gap found, and the one that half of the area has at most."""
-    area = face_areas(V, F)
-    depth = around.at(V[F].mean(axis=1))[0]
-    order = np.argsort(depth)
-    share = np.cumsum(area[order])
-    median = float(depth[order[np.searchsorted(share, share[-1] / 2)]])
-    outside = float(-Depth(V, F).at(around.V)[0].max())
-    return {"min": min(float(depth[order[0]]), outside), "median": median}
 
 
 def _blocks(whole: Body, plate: tuple[float, float, float]) -> list[Body]:

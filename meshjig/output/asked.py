@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from meshjig.errors import InputError
 
-__all__ = ["Asked", "read_asked"]
+__all__ = ["Asked", "read_asked", "read_missing"]
 
 
 class Asked(NamedTuple):
@@ -63,6 +63,29 @@ def read_asked(
         raise InputError(
             f"{path} is no report of meshjig, or damaged", hint="remove it to judge the pieces by themselves"
         ) from None
+
+
+def read_missing(
+    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], names: Sequence[str]
+) -> list[str]:
+    """List what the report in a folder of pieces tells of, and no file holds.
+
+    Parameters
+    ----------
+    paths : path, or several
+        As for `read_pieces`. Only a single folder that holds a report.json tells anything.
+    names : names of the pieces, and parts of the core, that were read
+    """
+    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    path = Path(given[0]) / "report.json" if len(given) == 1 else Path()
+    if not path.is_file():
+        return []
+    report = json.loads(path.read_text(encoding="utf-8"))
+    listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
+    if not set(listed) & set(names):
+        return []  # the pieces go by other names
+    listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
+    return sorted(set(listed) - set(names))
 
 
 def _neighbours(pieces: list[dict[str, Any]], names: Sequence[str]) -> list[tuple[int, int]] | None:

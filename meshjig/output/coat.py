@@ -105,8 +105,9 @@ class _Picture:
     def of(cls, source: Any) -> _Picture | None:
         visual = getattr(source, "visual", None)
         kind = getattr(visual, "kind", None)
-        if kind in ("vertex", "face"):
-            return cls(source, None)
+        if visual is not None and kind in ("vertex", "face"):
+            tint = visual.face_colors if kind == "face" else visual.vertex_colors
+            return cls(source, None) if np.ptp(np.asarray(tint)[..., :3], axis=0).any() else None
         material = getattr(visual, "material", None)
         image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
         if kind != "texture" or getattr(visual, "uv", None) is None or image is None:

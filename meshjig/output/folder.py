@@ -13,7 +13,7 @@ from meshjig.errors import OutputError
 __all__ = ["check_target", "replace_folder", "write_text"]
 
 
-def check_target(target: Path | str, made_by_file: str = "report.json") -> None:
+def check_target(target: Path | str, kind: str = "puzzle") -> None:
     """Refuse a folder that could not be replaced later, before any work is done for it.
 
     Raises
@@ -22,7 +22,7 @@ def check_target(target: Path | str, made_by_file: str = "report.json") -> None:
         As `replace_folder` would.
     """
     target = Path(target).resolve()
-    _refuse_foreign(target, made_by_file)
+    _refuse_foreign(target, kind)
     above = target.parent
     while not above.exists() and above != above.parent:
         above = above.parent
@@ -31,15 +31,15 @@ def check_target(target: Path | str, made_by_file: str = "report.json") -> None:
 
 
 @contextmanager
-def replace_folder(target: Path | str, made_by_file: str = "report.json") -> Iterator[Path]:
+def replace_folder(target: Path | str, kind: str = "puzzle") -> Iterator[Path]:
     """Give a new folder to write to, and put it in the target's place once everything is written.
 
     Parameters
     ----------
     target : Path
-        An existing folder is replaced only when it is empty, or when meshjig made it: its
-        ``made_by_file`` is a JSON object with the key ``meshjig``. Missing parents are made.
-    made_by_file : str
+        An existing folder is replaced only when it is empty, or when meshjig made it and it holds the
+        same kind of thing: its report.json has the keys ``meshjig`` and ``kind``. Missing parents are made.
+    kind : str, such as "puzzle", "charts" or "coupon"
 
     Yields
     ------
@@ -53,7 +53,7 @@ def replace_folder(target: Path | str, made_by_file: str = "report.json") -> Ite
         The target is not ours to replace, or can't be written.
     """
     target = Path(target).resolve()  # a link stays a link
-    _refuse_foreign(target, made_by_file)
+    _refuse_foreign(target, kind)
     made_parents: list[Path] = []
     scratch = target.parent / f".{target.name}-{uuid.uuid4().hex[:12]}"
     try:
@@ -61,7 +61,7 @@ def replace_folder(target: Path | str, made_by_file: str = "report.json") -> Ite
             _make_parents(target.parent, made_parents)
             scratch.mkdir()
             yield scratch
-            _refuse_foreign(target, made_by_file)
+            _refuse_foreign(target, kind)
             _swap(scratch, target)
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
@@ -105,27 +105,32 @@ def _make_parents(folder: Path, made: list[Path]) -> None:
         made.append(folder)
 
 
-def _refuse_foreign(target: Path, made_by_file: str) -> None:
+def _refuse_foreign(target: Path, kind: str) -> None:
     try:
         if not target.exists():
             return
         if not target.is_dir():
             raise OutputError(f"{target} is a file, not a folder", hint="choose another folder with -o")
-        ours = not any(target.iterdir()) or _is_ours(target / made_by_file)
+        held = kind if not any(target.iterdir()) else _kind_of(target / "report.json")
     except OSError as error:
         raise OutputError(f"the output folder {target} can't be read", hint=_HINT) from error
-    if not ours:
+    if held is None:
         raise OutputError(
             f"the folder {target} was not made by meshjig, so it is left alone", hint="choose another with -o"
         )
+    if held != kind:
+        raise OutputError(
+            f"the folder {target} holds a {held}, so it is left alone", hint="choose another with -o"
+        )
 
 
-def _is_ours(report: Path) -> bool:
+def _kind_of(report: Path) -> str | None:
+    """Say what a report is of; None where meshjig wrote none."""
     try:
         content = json.loads(report.read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        return False
-    return isinstance(content, dict) and "meshjig" in content
+        return None
+    return str(content.get("kind", "puzzle")) if isinstance(content, dict) and "meshjig" in content else None
 
 
 def _swap(scratch: Path, target: Path) -> None:

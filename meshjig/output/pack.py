@@ -12,7 +12,7 @@ from meshjig.output.footprint import convex_ring, least_rectangle, size_at
 from meshjig.output.printers import Plate
 from meshjig.types import Floats, Ints
 
-__all__ = ["Spots", "pack"]
+__all__ = ["Spots", "fits", "pack"]
 
 _MANY = 600  # outlines; more are packed by one rule only, since time grows with their square
 _STEP = 1e-3  # mm; the packer counts whole steps, so that nothing is lost to rounding
@@ -63,6 +63,15 @@ def pack(outlines: Sequence[Floats], plate: Plate, gap: float) -> Spots:
     turn = turn + np.where(quarter, np.pi / 2, 0.0)
     lowest = np.stack([_lowest(points, a) for points, a in zip(rings, turn, strict=True)])
     return Spots(number, turn, place * _STEP + gap - lowest)
+
+
+def fits(points: Floats, plate: Plate, gap: float) -> bool:
+    """Tell whether an outline, (k, 2), mm, fits a plate by itself."""
+    try:
+        _fitting_turns([convex_ring(points)], plate, gap)
+    except OutputError:
+        return False
+    return True
 
 
 def _fitting_turns(rings: Sequence[Floats], plate: Plate, gap: float) -> Floats:

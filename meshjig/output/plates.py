@@ -11,7 +11,7 @@ import numpy as np
 
 from meshjig.errors import OutputError
 from meshjig.output.footprint import convex_ring, footprint, least_rectangle, size_at
-from meshjig.output.pack import Spots, pack
+from meshjig.output.pack import Spots, fits, pack
 from meshjig.output.piece import Piece
 from meshjig.output.pose import Pose, lying_pose
 from meshjig.output.printable import printable
@@ -40,6 +40,7 @@ def lay_out(
     gap: float = GAP,
     nest: Literal["fast", "tight"] = "fast",
     outer_normals: Floats | None = None,
+    left_out: dict[str, str] | None = None,
 ) -> list[Laid]:
     """Lay pieces down on plates.
 
@@ -53,6 +54,8 @@ def lay_out(
         Pack rectangles, or fit outlines into one another (see `meshjig.output.nest.nest`).
     outer_normals : (n, 3) float64, optional
         Where the outer side of each piece faces; zero where that is not known.
+    left_out : dict, optional
+        Gets a sentence for the name of every piece that fits no plate; these are left out.
 
     Returns
     -------
@@ -61,7 +64,7 @@ def lay_out(
     Raises
     ------
     OutputError
-        A piece fits no plate; the sentence names it.
+        A piece fits no plate, and there is no dict for it; the sentence names it.
     OptionError
         ``nest`` is tight, and spyrrow is not installed.
     """
@@ -72,15 +75,18 @@ def lay_out(
         for i, piece in enumerate(pieces)
     ]
     lying = [_on_ground(piece.V @ pose.R.T) for piece, pose in zip(pieces, poses, strict=True)]
-    for piece, V in zip(pieces, lying, strict=True):
-        if V[:, 2].max() > plate.height:
-            raise _too_large(piece, V, plate)
+    right = [V[:, 2].max() <= plate.height and fits(V[:, :2], plate, gap) for V in lying]
+    for i in [i for i, good in enumerate(right) if not good]:
+        too_large = _too_large(pieces[i], lying[i], plate)
+        if left_out is None:
+            raise too_large
+        left_out[pieces[i].name] = str(too_large)
+    kept = [i for i, good in enumerate(right) if good]
+    if not kept:
+        return []
+    pieces, lying, poses = [pieces[i] for i in kept], [lying[i] for i in kept], [poses[i] for i in kept]
     shadows = [footprint(V, piece.F) for piece, V in zip(pieces, lying, strict=True)]
-    try:
-        spots = _spots(lying, shadows, plate, gap, nest)
-    except OutputError as error:
-        i = error.ids[0]
-        raise _too_large(pieces[i], lying[i], plate) from None
+    spots = _spots(lying, shadows, plate, gap, nest)
     return [
         _laid(pieces[i], lying[i], poses[i], shadows[i], spots.turn[i], spots.shift[i], int(spots.plate[i]))
         for i in range(len(pieces))
@@ -107,17 +113,19 @@ def write_plates(
     -------
     list of dict, one a piece, in order
         name; plate, counted from 1; x_mm and y_mm, the middle of the piece on it; height_mm;
-        overhang_share, of its surface; outer_up, or None where the outer side was not known.
+        overhang_share, of its surface; outer_up, or None where the outer side was not known. At the end
+        those that fit no plate: name; plate, None; why, a sentence.
 
     Raises
     ------
-    OutputError, OptionError
-        See `lay_out`; or a file can't be written.
+    OptionError
+        See `lay_out`.
     """
     from meshjig.output.plate_sheet import draw_plates
     from meshjig.output.threemf import write_3mf
 
-    laid = lay_out(pieces, plate, gap=gap, nest=nest, outer_normals=outer_normals)
+    left_out: dict[str, str] = {}
+    laid = lay_out(pieces, plate, gap=gap, nest=nest, outer_normals=outer_normals, left_out=left_out)
     (folder / "plates").mkdir()
     n_plates = max((item.plate for item in laid), default=0)
     for number in range(1, n_plates + 1):
@@ -125,7 +133,8 @@ def write_plates(
         title = f"meshjig plate {number} of {n_plates}"
         write_3mf(path, (item.piece for item in laid if item.plate == number), title)
     draw_plates(folder, laid, plate)
-    return [_fact(item) for item in laid]
+    too_large = [{"name": name, "plate": None, "why": why} for name, why in left_out.items()]
+    return [_fact(item) for item in laid] + too_large
 
 
 def _spots(lying: list[Floats], shadows: list[Any], plate: Plate, gap: float, nest: str) -> Spots:

@@ -83,10 +83,11 @@ def save_puzzle(
             from meshjig.output.printers import parse_plate
 
             with _lap(seconds, "plates"):
+                parts = [*pieces, *core]
                 laid = write_plates(
-                    folder, pieces, parse_plate(plate), nest=nest, outer_normals=_normals(pieces)
+                    folder, parts, parse_plate(plate), nest=nest, outer_normals=_normals(parts)
                 )
-            plates = {fact["name"]: fact["plate"] for fact in laid}
+            plates = {fact["name"]: fact["plate"] for fact in laid if fact["plate"]}
             report = {**report, "plates": laid}
         if viewer:
             from meshjig.output.viewer import FILE, write_viewer

@@ -63,10 +63,10 @@ def plan_pole(style: PoleStyle, radius: float, depth: float, around: int) -> Pol
             return PolePlan((1.0,), (), False)
         if radius - OVER > WIDEST_CAPSTONE / 2:
             return _rows(radius, depth, around)
-    return _capstone(style, radius, around, meet)
+    return _capstone(style, radius, around)
 
 
-def _capstone(style: PoleStyle, radius: float, around: int, meet: bool) -> PolePlan | None:
+def _capstone(style: PoleStyle, radius: float, around: int) -> PolePlan | None:
     why = ""
     if style == "wedge":
         why = _why(around)

@@ -1,5 +1,6 @@
 """A core is closed, fills the model, keeps its gap from all pieces, and fits the plate."""
 
+import igl
 import numpy as np
 import pytest
 
@@ -59,8 +60,8 @@ def test_core_is_sound_and_keeps_its_gap(name, clearance):
     assert (walls ^ core).volume() < 1e-9
     least = walls.min_gap(core, 5.0)
     assert least >= 0.97 * clearance
-    assert facts["gap_mm"]["min"] >= 0.97 * clearance
-    assert facts["gap_mm"]["median"] <= (1.5 if name == "noisy" else 1.2) * clearance
+    away = np.sqrt(igl.point_mesh_squared_distance(arrays(core)[0], *arrays(walls))[0])
+    assert np.median(away) <= (1.5 if name == "noisy" else 1.2) * clearance
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "box", "bowl"])

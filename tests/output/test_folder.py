@@ -108,3 +108,15 @@ def test_a_file_in_the_way_is_told(tmp_path, inside):
     with pytest.raises(OutputError, match="file"), replace_folder(tmp_path / "file" / inside):
         pytest.fail("the block must not run")
     assert tree(tmp_path) == {"file": "dear to me"}
+
+
+def test_a_folder_that_holds_something_else_of_meshjig_is_left_alone(tmp_path):
+    target = tmp_path / "puzzle"
+    target.mkdir()
+    (target / "report.json").write_text('{"meshjig": "1", "kind": "puzzle"}')
+    with pytest.raises(OutputError, match="holds a puzzle"), replace_folder(target, "coupon"):
+        pass
+    assert [p.name for p in tmp_path.iterdir()] == ["puzzle"]
+    with replace_folder(target) as folder:
+        (folder / "new").touch()
+    assert [p.name for p in target.iterdir()] == ["new"]

@@ -117,9 +117,14 @@ def test_the_picture_is_grey_white_and_black_only(folder):
 
 def test_a_piece_too_large_for_the_plate_is_named_with_its_size(tmp_path):
     large = Piece("piece_099", *bent(120, 60), (0, 0, 0))
-    with pytest.raises(OutputError, match=r"piece_099 \(120 x 60 x 2 mm\).*90 x 80 x 50 mm.*--plate"):
-        write_plates(tmp_path, [*PIECES, large], PLATE)
-    assert not list(tmp_path.iterdir())
+    sentence = r"piece_099 \(120 x 60 x 2 mm\).*90 x 80 x 50 mm.*--plate"
+    *others, left_out = write_plates(tmp_path, [*PIECES, large], PLATE)
+    assert left_out["name"] == "piece_099"
+    assert left_out["plate"] is None
+    assert re.search(sentence, left_out["why"])
+    assert [fact["name"] for fact in others] == [piece.name for piece in PIECES]
+    with pytest.raises(OutputError, match=sentence):
+        lay_out([*PIECES, large], PLATE)
 
 
 def test_a_piece_too_high_for_the_printer_is_named():
