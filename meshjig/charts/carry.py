@@ -8,6 +8,7 @@ from meshjig.charts.flatten import flat_share, is_unflipped, ring_is_simple, uni
 from meshjig.charts.part import part
 from meshjig.charts.region import single_loop
 from meshjig.charts.settle import settle
+from meshjig.charts.slim import slim
 from meshjig.charts.strays import without_strays
 from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
@@ -17,6 +18,9 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["Carrier"]
 
 _MAY_LOSE = 0.03
+_LITTLE = 0.01  # of the area may leave FLAT_LIMITS as mirrored faces are turned back; SLIM brings more back
+_ITERATIONS = 5  # of it
+_HEAVY = 40_000  # faces, for which it takes too long
 
 
 class Carrier:
@@ -80,11 +84,18 @@ class Carrier:
         uv = untangle(X, corners, guess)
         if self._settles:
             uv = settle(X, corners, uv, border=border)
+        wanted = flat_share(X, corners, guess)
+        if (
+            len(faces) <= _HEAVY
+            and is_unflipped(uv, corners)
+            and flat_share(X, corners, uv) < wanted - _LITTLE
+        ):
+            uv = slim(X, corners, uv, _ITERATIONS)
         uv = part(X, corners, uv, border=border)
         if not (is_unflipped(uv, corners) and ring_is_simple(uv[border])):
             return None
         uv = unit_stretch(X, corners, uv)
-        if flat_share(X, corners, uv) < flat_share(X, corners, guess) - may_lose:
+        if flat_share(X, corners, uv) < wanted - may_lose:
             return None  # too much was pulled along
         return Chart(faces, uv, corners)
 
