@@ -82,7 +82,7 @@ def chart_component(
     if rings is not None and _seams(V, F, rings) <= _FEW_SEAMS:
         return rings
     flattening = "slim" if method == "auto" else method
-    label = segment(*light, seed=seed)
+    label = segment(*light, seed=seed, conformal=flattening == "lscm")
     own = own_charts(V, F, light, label, flattening, seed=seed, zipped=zip_charts if zipped else None)
     if rings is not None and _seams(V, F, rings) <= _seams(V, F, own):
         return rings

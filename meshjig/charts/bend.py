@@ -50,9 +50,10 @@ class Bend:
 
         Where there is little curvature it hardly can be, and is not computed.
         """
-        if np.abs(self._curvature[self._inner(faces)]).sum() < _LITTLE * limit:
+        inner = self._inner(faces)
+        if np.abs(self._curvature[inner]).sum() < _LITTLE * limit:
             return False
-        return self.spread(faces) > limit
+        return self._spread(faces, inner) > limit
 
     def spread(self, faces: Ints) -> float:
         """Give the spread of log scale over the middle 99 % of the area of some faces.
@@ -61,13 +62,15 @@ class Bend:
         ----------
         faces : (k,) int64, a disc
         """
+        return self._spread(faces, self._inner(faces))
+
+    def _spread(self, faces: Ints, inner: Ints) -> float:
         from scipy.sparse.linalg import splu
 
         G = self._F[faces]
-        inner = self._inner(faces)
         if not len(inner):
             return 0.0
-        matrix = self._laplacian[inner][:, inner].tocsc()
+        matrix = self._laplacian[inner][:, inner].T  # itself, in the format that is wanted
         scale = np.zeros(len(self._n_faces))
         try:
             solver = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})

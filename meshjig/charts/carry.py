@@ -8,6 +8,7 @@ from meshjig.charts.flatten import flat_share, is_unflipped, ring_is_simple, uni
 from meshjig.charts.part import part
 from meshjig.charts.region import single_loop
 from meshjig.charts.settle import settle
+from meshjig.charts.slim import slim
 from meshjig.charts.strays import without_strays
 from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
@@ -17,6 +18,9 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["Carrier"]
 
 _MAY_LOSE = 0.03
+_LITTLE = 0.01  # of the area may leave FLAT_LIMITS as mirrored faces are turned back; SLIM brings more back
+_ITERATIONS = 5  # of it
+_HEAVY = 40_000  # faces, for which it takes too long
 
 
 class Carrier:
@@ -67,6 +71,8 @@ class Carrier:
         is_chosen = np.zeros(self._n_leaves, bool)
         is_chosen[self._light_leaf[chart.faces]] = True
         faces = np.flatnonzero(is_chosen[self.leaf])
+        if not len(faces):  # none of the mesh was nearest to them
+            return None
         cut = self._cut_around(is_chosen, chart)
         corners = cut_faces(self._e, cut, faces)
         border = self._border(cut, faces, corners)
@@ -78,11 +84,18 @@ class Carrier:
         uv = untangle(X, corners, guess)
         if self._settles:
             uv = settle(X, corners, uv, border=border)
+        wanted = flat_share(X, corners, guess)
+        if (
+            len(faces) <= _HEAVY
+            and is_unflipped(uv, corners)
+            and flat_share(X, corners, uv) < wanted - _LITTLE
+        ):
+            uv = slim(X, corners, uv, _ITERATIONS)
         uv = part(X, corners, uv, border=border)
         if not (is_unflipped(uv, corners) and ring_is_simple(uv[border])):
             return None
         uv = unit_stretch(X, corners, uv)
-        if flat_share(X, corners, uv) < flat_share(X, corners, guess) - may_lose:
+        if flat_share(X, corners, uv) < wanted - may_lose:
             return None  # too much was pulled along
         return Chart(faces, uv, corners)
 
@@ -100,23 +113,44 @@ class Carrier:
     def _cut_around(self, is_chosen: Bools, chart: Chart) -> Bools:
         """Tell which edges are cut: all between leaves but those that are closed inside a chart, (e,)."""
         cut = self._sides[:, 0] != self._sides[:, 1]
-        for chain in self._chains:
-            pair = self._sides[chain[0]]
-            if is_chosen[pair].all():
-                cut[self._glued(chain, pair, chart)] = False
-        return cut
-
-    def _glued(self, chain: Ints, pair: Ints, chart: Chart) -> Ints:
-        """Give the stretch of a seam that is closed, going by the seam's nearest place on the proxy."""
-        rows = np.flatnonzero((self._light_sides == pair).all(1))
-        if not len(rows):
-            return chain[:0]
         corners = np.full((len(self._G), 3), -1)
         corners[chart.faces] = chart.corners
-        closed = _closed(self._light, corners)[rows]
-        near = _nearest(self._V[self._e.E[chain]].mean(1), self._W[self._light.E[rows]].mean(1))
-        length = np.linalg.norm(np.diff(self._V[self._e.E[chain]], axis=1)[:, 0], axis=1)
-        return chain[_best_stretch(np.where(closed[near], length, -length))]
+        closed = _closed(self._light, corners)
+        seams: dict[tuple[int, int], list[Ints]] = {}
+        for chain in self._chains:
+            low, high = self._sides[chain[0]].tolist()
+            if is_chosen[[low, high]].all():
+                seams.setdefault((low, high), []).append(chain)
+        for pair, chained in seams.items():
+            for stretch in self._glued(chained, np.array(pair), closed):
+                cut[stretch] = False
+        return cut
+
+    def _glued(self, seams: list[Ints], pair: Ints, closed: Bools) -> list[Ints]:
+        """Give the stretches of two leaves' seams that are closed, going by the nearest place on the proxy.
+
+        Each closed stretch of the proxy closes one here: another, be it a single edge long, would be a
+        bridge that leaves a hole.
+        """
+        rows = np.flatnonzero((self._light_sides == pair).all(1))
+        if not closed[rows].any():
+            return []
+        run = np.full(len(rows), -1)
+        shut = np.flatnonzero(closed[rows])
+        runs = chains(self._light.E[rows[shut]], rows[:0])
+        for number, found in enumerate(runs):
+            run[shut[found]] = number
+        middle = self._W[self._light.E[rows]].mean(1)
+        near = [run[_nearest(self._V[self._e.E[seam]].mean(1), middle)] for seam in seams]
+        length = [np.linalg.norm(np.diff(self._V[self._e.E[seam]], axis=1)[:, 0], axis=1) for seam in seams]
+        glued = []
+        for number in range(len(runs)):
+            gains = [np.where(n == number, along, -along) for n, along in zip(near, length, strict=True)]
+            stretches = [_best_stretch(gain) for gain in gains]
+            sums = [float(gain[stretch].sum()) for gain, stretch in zip(gains, stretches, strict=True)]
+            best = int(np.argmax(sums))
+            glued.append(seams[best][stretches[best]])
+        return glued
 
     def _first_guess(self, chart: Chart, faces: Ints, corners: Ints) -> Floats:
         """Place corners where their leaf says, and corners of several leaves in the middle."""

@@ -36,14 +36,16 @@ class Judge:
     F : (m, 3) int64, manifold
     least_share : float
         Share of the area that must lie within FLAT_LIMITS.
+    conformal : bool
+        Whether charts are flattened with their angles kept: then ARAP is not asked.
     """
 
-    def __init__(self, V: Floats, F: Ints, least_share: float = 0.97) -> None:
+    def __init__(self, V: Floats, F: Ints, least_share: float = 0.97, conformal: bool = False) -> None:
         self._V = V
         self._area = face_areas(V, F)
         self._bend = Bend(V, F)
         self._regions = Regions(F)
-        self._least_share = least_share
+        self._least_share, self._conformal = least_share, conformal
         self._known: dict[int, bool] = {}
 
     def accepts(self, faces: Ints) -> bool:
@@ -55,17 +57,19 @@ class Judge:
 
     def _is_good(self, faces: Ints) -> bool:
         region = self._regions.disc(faces)
-        if region is None or self._bend.exceeds(faces, _SPREAD) or not is_stout(region):
+        if region is None or not is_stout(region) or self._bend.exceeds(faces, _SPREAD):
             return False
         V, area = self._V[region.kept], self._area[faces]
         try:
-            uv = lscm(V, region.F, region.loop)
+            uv = lscm(V, region.F, region.loop, float(area.sum()))
         except ChartError:
             uv = tutte(V, region.F)
         if not ring_is_simple(uv[region.loop]):  # hardly ever does ARAP draw it apart
             return False
         if _share(V, region, area, uv) >= self._least_share:
             return True
+        if self._conformal:
+            return False
         uv = arap(V, region.F, uv, _ITERATIONS)
         return _share(V, region, area, uv) >= self._least_share and ring_is_simple(uv[region.loop])
 

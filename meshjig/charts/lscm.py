@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-def lscm(V: Floats, F: Ints, border: Ints | None = None) -> Floats:
+def lscm(V: Floats, F: Ints, border: Ints | None = None, area: float | None = None) -> Floats:
     """Flatten a chart so that angles survive and the area is the surface's own.
 
     Two far border vertices are pinned: LSCM is free up to a similarity, and libigl answers
@@ -24,6 +24,7 @@ def lscm(V: Floats, F: Ints, border: Ints | None = None) -> Floats:
     V : (n, 3) float64, mm
     F : (m, 3) int64, one disc that uses every vertex
     border : (b,) int64, its border loop, where the caller has it
+    area : float, mm2, its area, where the caller has it
 
     Returns
     -------
@@ -52,5 +53,6 @@ def lscm(V: Floats, F: Ints, border: Ints | None = None) -> Floats:
     flat = np.abs(face_areas(uv, F)).sum()
     if not np.isfinite(uv).all() or flat <= 0:
         raise ChartError("a chart has no conformal map", hint="repair its degenerate faces")
-    scaled: Floats = uv * np.sqrt(face_areas(V, F).sum() / flat)
+    area = float(face_areas(V, F).sum()) if area is None else area
+    scaled: Floats = uv * np.sqrt(area / flat)
     return scaled

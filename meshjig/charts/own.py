@@ -12,8 +12,8 @@ from meshjig.types import Floats, Ints
 
 __all__ = ["own_charts"]
 
-_LEAST_SHARE = 0.95  # of the area within FLAT_LIMITS, of a glued chart that is flattened once more
-_LEAST_OF_LEAF = 0.97  # the same of a region of the proxy: less stretched parts of it can be glued later
+_LEAST_SHARE = 0.95  # of the area within FLAT_LIMITS, of a glued chart that ARAP flattens once more
+_LEAST_OF_LEAF = 0.97  # the same of LSCM, and of a region of the proxy: less stretched parts of it glue
 
 Zip = Callable[[Floats, Ints, list[Chart]], list[Chart]]
 
@@ -82,7 +82,8 @@ def _flattened_by(
     X = np.empty((len(chart.uv), 3))
     X[chart.corners] = V[F[chart.faces]]
     uv = flatten(X, chart.corners, method)
-    if border_is_simple(uv, chart.corners) and flat_share(X, chart.corners, uv) >= _LEAST_SHARE:
+    least_share = _LEAST_SHARE if method == "arap" else _LEAST_OF_LEAF
+    if border_is_simple(uv, chart.corners) and flat_share(X, chart.corners, uv) >= least_share:
         return [Chart(chart.faces, uv, chart.corners)]
     # SLIM, by which it was glued, gives maps like ARAP's; a conformal one has to be of smaller parts
     return [chart] if method == "arap" else [leaves[k] for k in np.unique(leaf[chart.faces])]

@@ -36,7 +36,8 @@ class Regions:
         self._across[edges(F).twin == h] = -1
         self._end = F.ravel()[next_halfedge(h)]
         self._inside = np.zeros(len(F) + 1, bool)  # the last stands for what is beyond a border
-        self._number = np.empty(int(F.max(initial=-1)) + 1, np.int64)
+        self._used = np.zeros(int(F.max(initial=-1)) + 1, bool)
+        self._number = np.empty(len(self._used), np.int64)
 
     def disc(self, faces: Ints) -> Region | None:
         """Give faces (k,) as a disc; None where they are none."""
@@ -46,7 +47,9 @@ class Regions:
         self._inside[faces] = False
         start, end = self._F.ravel()[rim], self._end[rim]
         corners = self._F[faces]
-        kept = np.unique(corners)
+        self._used[corners.ravel()] = True
+        kept = np.flatnonzero(self._used)
+        self._used[kept] = False
         n_edges = (len(h) + len(rim)) // 2
         if len(kept) - n_edges + len(faces) != 1:
             return None

@@ -28,7 +28,7 @@ def rescue(
     method : str
     seed : int
     least_share : float
-        Of the area that must lie within FLAT_LIMITS. A conformal map may scale as it likes.
+        Of the area that must lie within FLAT_LIMITS.
 
     Returns
     -------
@@ -65,5 +65,5 @@ def _sound(V: Floats, F: Ints, method: Method, least_share: float) -> Floats | N
         uv = flatten(V, F, method)
     except ChartError:
         return None
-    flat = method == "lscm" or len(F) == 1 or flat_share(V, F, uv) >= least_share
+    flat = len(F) == 1 or flat_share(V, F, uv) >= least_share
     return uv if flat and border_is_simple(uv, F) else None

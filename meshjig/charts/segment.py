@@ -22,7 +22,9 @@ Ints = NDArray[np.int64]
 _TRIES = 2
 
 
-def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 1) -> Ints:
+def segment(
+    V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int = 1, conformal: bool = False
+) -> Ints:
     """Label each face of one component with its chart.
 
     Patches are merged to charts, more than once from other patches; the best division is taken.
@@ -34,12 +36,13 @@ def segment(V: Floats, F: Ints, n_patches: int = 90, seed: int = 0, rounds: int 
     n_patches : int, how many patches the charts are merged from
     seed : int
     rounds : int, of smoothing borders and merging again
+    conformal : bool, whether charts will be flattened with their angles kept, which takes more of them
 
     Returns
     -------
     chart_of_face : (m,) int64, 0 to k - 1; every chart is one that the Judge accepts, or a single face
     """
-    judge = Judge(V, F)
+    judge = Judge(V, F, conformal=conformal)
     if judge.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
     graph = dual(V, F)

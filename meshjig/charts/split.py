@@ -23,7 +23,7 @@ def split(V: Floats, F: Ints, label: Ints, is_good: Callable[[Ints], bool], seed
     V : (n, 3) float64, mm
     F : (m, 3) int64, manifold
     label : (m,) int64
-    is_good : callable, tells whether faces (k,) may stay together; not asked about single faces
+    is_good : callable, tells whether faces (k,) hang together and may stay so; not asked about single ones
     seed : int
 
     Returns
@@ -35,11 +35,11 @@ def split(V: Floats, F: Ints, label: Ints, is_good: Callable[[Ints], bool], seed
     n = 0
     while todo:
         faces = todo.pop()
-        n_parts, part = components(F[faces])
-        if n_parts == 1 and (len(faces) == 1 or is_good(faces)):
+        if len(faces) == 1 or is_good(faces):
             out[faces] = n
             n += 1
             continue
+        n_parts, part = components(F[faces])
         if n_parts == 1:
             G, kept = compact(F[faces])
             part = patches(dual(V[kept], G), 2, seed, rounds=4)

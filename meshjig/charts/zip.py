@@ -10,11 +10,11 @@ from meshjig.types import Floats, Ints
 
 __all__ = ["zip_charts"]
 
-_LEAST_SHARE = 0.985  # of a glued chart's area, within FLAT_LIMITS
+_LEAST_SHARES = (0.985, 0.98)  # of a glued chart's area, within FLAT_LIMITS
 _OVERLAP_COST = 30.0  # an overlap of 1/30 squared of the area leaves an arc a third of its worth
 _OVERLAP = 0.01  # of the area: more can't be drawn apart
 _DECAY = 0.6  # what other arcs between two charts are worth after one of them failed
-_EFFORT = 30_000  # faces flattened, in all
+_EFFORT = 20_000  # faces flattened, for each of them
 _EFFORT_OF_OVERLAP, _EFFORT_OF_TRYING = 10, 250  # faces
 _GAPS = (0.05, 0.1, 0.2, 0.4)  # opening of a slit over its length, up to which it may close
 
@@ -23,7 +23,7 @@ def zip_charts(
     V: Floats,
     F: Ints,
     charts: list[Chart],
-    least_shares: tuple[float, ...] = (_LEAST_SHARE,),
+    least_shares: tuple[float, ...] = _LEAST_SHARES,
     effort: float = _EFFORT,
 ) -> list[Chart]:
     """Glue charts two by two along a stretch of their seam, then close slits from their tips.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from meshjig.output.colours import colours
 from meshjig.output.render import render
 from meshjig.output.scene import scene_of
+from meshjig.output.seam_lines import cuts, draw_lines
 from meshjig.output.stretch import MOST, heat, stretch
 from meshjig.output.view import View, guess_up, view_of
 from meshjig.topology import border_halfedges, edges, next_halfedge
@@ -20,6 +21,7 @@ __all__ = ["draw_atlas"]
 
 _SIDES = ((30.0, 18.0), (210.0, 18.0))  # azimuth and elevation, degrees
 _FRAME = 1.05
+_STRIP = 0.08  # of the lower pictures' height, free for the legend
 
 
 def draw_atlas(atlas: Atlas, folder: Path, size: int = 1600) -> None:
@@ -62,18 +64,28 @@ def _touching(atlas: Atlas) -> Ints:
 
 
 def _seen(atlas: Atlas, colour: Floats, size: int) -> list[NDArray[np.uint8]]:
+    """Draw the model from two sides, its cuts as lines: a chart that meets itself shows where."""
+    from PIL import Image
+
     V, F = atlas.mesh.V, atlas.mesh.F
     scene = scene_of(V, F, colour, atlas.chart_of_face)
     up = guess_up(V, F)
     views = [view_of(V, up, *side) for side in _SIDES]
     widest = _FRAME * max(view.half for view in views)
-    return [render(scene, View(v.eye, v.axes, v.centre, widest), size) for v in views]
+    pictures = []
+    for v in views:
+        view = View(v.eye, v.axes, v.centre, widest)
+        image = Image.fromarray(render(scene, view, size))
+        draw_lines(image, scene, view, V[cuts(atlas)], size)
+        pictures.append(np.asarray(image))
+    return pictures
 
 
 def _flat_view(atlas: Atlas) -> View:
     """Look straight down on the plane of the charts."""
     view = view_of(_raised(atlas.uv), np.array([0.0, 1.0, 0.0]), 0.0, 0.0)
-    return View(view.eye, view.axes, view.centre, _FRAME * view.half)
+    half = _FRAME * view.half
+    return View(view.eye, view.axes, view.centre - [0, _STRIP * half], (1 + _STRIP) * half)
 
 
 def _plane(atlas: Atlas, colour: Floats, view: View, size: int) -> NDArray[np.uint8]:

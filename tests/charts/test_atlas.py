@@ -169,6 +169,14 @@ def test_gluing_leaves_fewer_charts_and_the_facts_tell():
     assert f"glued from {whole.n_charts}" in facts["reason"]
 
 
+@pytest.mark.parametrize("mesh", [genus2(1500), sphere(9000), half_sphere(2000)])
+def test_conformal_charts_are_cut_until_they_are_true_to_size(mesh):
+    facts = build_atlas(Mesh(*mesh), method="lscm").facts
+    assert facts["gate_share"] >= 0.97
+    assert facts["flips"] == facts["overlaps"] == 0
+    assert facts["n_charts"] <= 16
+
+
 def test_where_a_glued_chart_can_not_be_carried_its_parts_are(monkeypatch):
     carry = Carrier.carry
     leaf_sizes = []

@@ -103,3 +103,11 @@ def test_a_chart_whose_leaves_can_all_be_carried_but_not_together_falls_into_the
     made, missing = _carried(RefusesAll(V, F, label, V, F, label), tube, label)
     assert missing == []
     assert sorted(label[chart.faces[0]] for chart in made) == [0, 1, 2, 3]
+
+
+def test_a_leaf_that_no_face_of_the_mesh_is_nearest_to_makes_no_chart():
+    W, G = cylinder(1000)
+    label = quarters_of_a_tube(W, G)
+    faces = np.flatnonzero(label == 3)
+    light = plain(G, faces, W[compact(G[faces])[1]][:, 1:])
+    assert Carrier(W, G, np.minimum(label, 2), W, G, label).carry(light) is None

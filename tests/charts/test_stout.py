@@ -1,4 +1,7 @@
 import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 from meshjig.charts.region import Regions
 from meshjig.charts.stout import is_stout, stouter
@@ -42,6 +45,24 @@ def test_thin_necks_and_thorns_are_not_stout_and_wide_ones_are():
     assert not stout(*dumbbell(1.2))
     assert stout(*with_thorn(6.0))
     assert not stout(*with_thorn(1.2))
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_disc_with_a_neck_of_a_single_edge_is_not_stout(seed):
+    mesh, rng = disc(1500), np.random.default_rng(seed)
+    centre = mesh.V[mesh.F].mean(1)
+    spots = rng.uniform(-35, 35, (4, 2))
+    near = np.linalg.norm(centre[:, None, :2] - spots, axis=2).min(1) < rng.uniform(10, 30)
+    region = Regions(mesh.F).disc(np.flatnonzero(near))
+    if region is None:
+        return
+    inner = np.setdiff1d(np.arange(len(region.kept)), region.loop)
+    graph = csr_matrix((len(region.kept),) * 2, dtype=np.int8).tolil()
+    for a, b, c in region.F:
+        graph[a, b] = graph[b, c] = graph[c, a] = 1
+    n_cores, _ = connected_components(graph.tocsr()[inner][:, inner], directed=False)
+    if n_cores > 1:
+        assert not is_stout(region)
 
 
 def test_a_neck_is_cut_and_a_thorn_given_away():
