@@ -7,6 +7,7 @@ import numpy as np
 
 from meshjig.tiling.clear import surroundings
 from meshjig.tiling.curves import along
+from meshjig.tiling.stretch import Stretch
 from meshjig.tiling.template import Template
 from meshjig.types import Bools, Floats, Ints
 
@@ -17,8 +18,8 @@ JITTER = 0.06  # of an edge, that a knob to either side is off its place by chan
 SMALLER, LARGER = 0.85, 1.1  # how much knobs vary in size by chance, when all is random
 LEAN = 0.3  # of its height, that a knob's top is moved sideways then
 FARTHEST = 0.2  # of an edge, that a knob is moved from the middle for its own good
-LARGEST = 1.4  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
-STRETCH = 1.04  # of the neck asked for, since charts are a little larger than the surface in places
+LARGEST = 1.75  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
+STRETCH = 1.05  # of the neck asked for: across a knob, charts are stretched unevenly
 LEAST_HEAD = 1.3  # widths of the neck, after bending
 # the scale before and this one; place, None for the middle of what lies inside the chart; side
 _SCALES = ((np.inf, 1.0), (1.0, 0.85), (0.85, 0.7))
@@ -60,6 +61,7 @@ def choose_knobs(
     chances: Chances,
     bend: Callable[[Floats], Floats],
     period: float = 0.0,
+    stretch: Stretch | None = None,
     open_to: Bools | None = None,
     clearance: float | None = None,
     largest: float = LARGEST,
@@ -80,6 +82,7 @@ def choose_knobs(
     chances : Chances
     bend : callable, carries points (..., 2) of the chart's plane; what is drawn is tested after it
     period : float, mm, of a periodic chart, else 0
+    stretch : Stretch, optional, of the chart, for necks to be as wide as asked on the surface
     open_to : (e,) bool, optional, edges that may have a knob; all of them if not given
     clearance : float, mm, optional, that knobs keep from edges and knobs; a share of the size if not given
     largest : float, times its size, that a knob may grow for its neck to be as wide as asked
@@ -97,7 +100,7 @@ def choose_knobs(
     jitter = jitter * (sides == 0)
     straight = np.stack([np.linspace(0, 1, len(template.points)), np.zeros(len(template.points))], 1)
     curves = bend(along(straight, ends))
-    need = STRETCH * min_neck / (template.neck_width * _length_at_middle(curves))
+    need = STRETCH * min_neck / (template.neck_width * _length_at_middle(curves, stretch))
     least = np.minimum(need, 1.0)
     full = np.maximum(vary, np.minimum(need, largest))
 
@@ -126,11 +129,13 @@ def choose_knobs(
     return chosen, curves
 
 
-def _length_at_middle(curves: Floats) -> Floats:
+def _length_at_middle(curves: Floats, stretch: Stretch | None) -> Floats:
     """Give how long straight edges (e, n, 2) would be, bent all along as they are in the middle; (e,), mm."""
     n = curves.shape[1] - 1
     a, b = int(0.4 * n), n - int(0.4 * n)
-    return np.linalg.norm(curves[:, b] - curves[:, a], axis=1) * n / (b - a)
+    along = curves[:, b] - curves[:, a]
+    length: Floats = np.linalg.norm(along, axis=1) * n / (b - a)
+    return length if stretch is None else length * stretch((curves[:, a] + curves[:, b]) / 2, along)
 
 
 def _free_middles(inside: Any, ends: Floats) -> tuple[Bools, Floats]:

@@ -16,6 +16,7 @@ from meshjig.tiling.net import Net, lay_net, rounded
 from meshjig.tiling.placing import Placing, placings_in_the_middle
 from meshjig.tiling.polar_plan import PoleStyle
 from meshjig.tiling.poles import Pole, find_poles
+from meshjig.tiling.stretch import Stretch, chart_stretch
 from meshjig.tiling.template import Template
 from meshjig.tiling.unit import Unit
 from meshjig.tiling.warp import WarpStyle, random_warp
@@ -154,7 +155,8 @@ def tile_surface(
         bounds = np.array(polygon.bounds)
         net = lay_net(unit, placing, bounds, size / 2 + BESIDE)
         warp = random_warp(bounds, size, random, random_style, rng, placing.period) if random else None
-        drawing = _draw(polygon, unit, placing, net, warp or _same, template, min_neck, chances)
+        stretch = chart_stretch(atlas, chart)
+        drawing = _draw(polygon, unit, placing, net, warp or _same, stretch, template, min_neck, chances)
         parts[chart], nets[chart] = chart_graph(polygon, drawing), net
         n_tiles[chart] = net.n_tiles
         n_edges.append(len(drawing.edges))
@@ -176,6 +178,7 @@ def _draw(
     placing: Placing,
     net: Net,
     bend: Callable[[Floats], Floats],
+    stretch: Stretch,
     template: Template | None,
     min_neck: float,
     chances: Chances,
@@ -201,6 +204,7 @@ def _draw(
             chances=chances,
             bend=bend,
             period=placing.period,
+            stretch=stretch,
         )
         n = drawn.shape[1]
         curves = Curves(drawn.reshape(-1, 2), np.arange(len(edges) + 1) * n)

@@ -15,6 +15,7 @@ from tests.tiling.tilings import copies, cover_counts, is_moved, outlines
 
 DIRECTIONS = np.linspace(0, 2 * np.pi, 72, endpoint=False)
 NARROWEST = 0.10  # of a tile's edge
+HOLD = 0.03  # of a tile's edge; 0.2 mm are that much of a tile of 7 mm
 
 
 @pytest.fixture(params=escher.names())
@@ -85,6 +86,18 @@ def test_squares_with_plain_edges_slide_apart():
 def test_every_tile_holds_on_to_a_neighbour_by_itself(name):
     unit = escher.unit(name)
     assert set(unit.sides[locked_edges(unit)][..., 0].ravel()) == set(range(unit.n_tiles))
+
+
+def undercut(curve):
+    """How far a border has to give way, at least, for the tiles on its sides to come apart."""
+    along = curve @ np.stack([np.cos(DIRECTIONS), np.sin(DIRECTIONS)])
+    return (np.maximum.accumulate(along, axis=0) - along).max(0).min()
+
+
+def test_every_tile_holds_on_to_a_neighbour_by_more_than_the_gap_between_printed_pieces(name):
+    unit = escher.unit(name)
+    holds = np.array([undercut(curve) for curve in unit.curves]) > HOLD
+    assert set(unit.sides[holds][..., 0].ravel()) == set(range(unit.n_tiles))
 
 
 def test_figures_are_nowhere_too_narrow_to_print(name):
