@@ -17,7 +17,8 @@ from meshjig.types import Floats, Ints
 
 __all__ = ["Carved", "carve", "moved_apart"]
 
-_SHORTEST = 0.003  # mm; details of the booleans below this are dissolved
+# mm; details of the booleans below this are dissolved: the first, or a later one where pieces would cross
+_SHORTEST = (0.003, 0.005, 0.01)
 _DEPTH = 0.005  # mm; shallower crossings are rounding
 _MENDS = 3  # tries, each with a wider region
 
@@ -69,7 +70,7 @@ def carve(
     for i, solid in solids.items():
         whole = body(solid.V, solid.F)
         first = _carved(whole, [joined[key] for key in around[i]], "clean")
-        if first.state == "clean" and not _crosses(first):
+        if first.state == "clean":
             carved[i] = first
             continue
         own = [cutter for key in around[i] for cutter in of_pair[key]]
@@ -94,16 +95,16 @@ def _carved_with_care(
         folded = len(crossing_pairs(*arrays(cutter))[0])
         parts += round_cutters(strip, quads, half) if folded else [cutter]
     tried = _carved(whole, parts, "rounded")
-    if tried.state == "rounded" and not _crosses(tried):
+    if tried.state == "rounded":
         return tried
     for width in range(1, _MENDS + 1):
         repaired = mended(solid, width)
         if repaired is None:
             break
         tried = _carved(repaired, parts, "mended")
-        if tried.state == "mended" and not _crosses(tried):
+        if tried.state == "mended":
             return tried
-    return first._replace(state="crosses") if first.state == "clean" else first
+    return first
 
 
 def _union(bodies: list[Body]) -> Body:
@@ -118,10 +119,17 @@ def _carved(whole: Body, cutters: list[Body], state: str) -> Carved:
     import manifold3d
 
     rest = manifold3d.Manifold.batch_boolean([whole, *cutters], manifold3d.OpType.Subtract)
-    rest, lost, parts = largest(rest.simplify(_SHORTEST))
-    if not sound(rest):
-        return Carved(*arrays(whole), 0.0, 0, "uncut")
-    return Carved(*arrays(rest), lost, parts, state)
+    failed = Carved(*arrays(whole), 0.0, 0, "uncut")
+    for shortest in _SHORTEST:
+        main, lost, parts = largest(rest.simplify(shortest))
+        if not sound(main):
+            continue
+        made = Carved(*arrays(main), lost, parts, state)
+        if not _crosses(made):
+            return made
+        if failed.state == "uncut":
+            failed = made._replace(state="crosses")
+    return failed
 
 
 def _crosses(piece: Carved) -> bool:
