@@ -27,7 +27,10 @@ def unit(x: Floats) -> Floats:
 def area_vectors(V: Floats, F: Ints) -> Floats:
     """Give each face's normal scaled to twice its area, (m, 3)."""
     a = V[F[:, 0]]
-    return np.cross(V[F[:, 1]] - a, V[F[:, 2]] - a)
+    (d, e, f), (u, v, w) = (V[F[:, 1]] - a).T, (V[F[:, 2]] - a).T
+    N = np.empty((len(F), 3))
+    N[:, 0], N[:, 1], N[:, 2] = e * w - f * v, f * u - d * w, d * v - e * u
+    return N
 
 
 def face_areas(V: Floats, F: Ints) -> Floats:
@@ -35,7 +38,7 @@ def face_areas(V: Floats, F: Ints) -> Floats:
     if V.shape[1] == 2:
         d, e = V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]
         return (d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0]) / 2
-    return np.linalg.norm(area_vectors(V, F), axis=1) / 2
+    return _lengths(area_vectors(V, F)) / 2
 
 
 def vertex_normals(V: Floats, F: Ints) -> Floats:
@@ -106,13 +109,18 @@ def singular_values(V: Floats, F: Ints, uv: Floats, F_uv: Ints | None = None) ->
     """
     G = F if F_uv is None else F_uv
     d, e = V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]
-    length = np.maximum(np.linalg.norm(d, axis=1), 1e-300)
+    length = np.maximum(_lengths(d), 1e-300)
     x = d / length[:, None]
     ex = np.einsum("ij,ij->i", e, x)
-    ey = np.maximum(np.linalg.norm(e - ex[:, None] * x, axis=1), 1e-14)
+    ey = np.maximum(_lengths(e - ex[:, None] * x), 1e-14)
     p, q = uv[G[:, 1]] - uv[G[:, 0]], uv[G[:, 2]] - uv[G[:, 0]]
     first = p / length[:, None]
     second = (q - first * ex[:, None]) / ey[:, None]
     rotation = np.hypot(first[:, 0] + second[:, 1], first[:, 1] - second[:, 0]) / 2
     reflection = np.hypot(first[:, 0] - second[:, 1], first[:, 1] + second[:, 0]) / 2
     return np.stack([rotation + reflection, rotation - reflection], 1)
+
+
+def _lengths(X: Floats) -> Floats:
+    """Give the length of each row, (k,); quicker than numpy's norm."""
+    return np.sqrt(np.einsum("ij,ij->i", X, X))

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.background import Background
 from meshjig.charts.dissolve import dissolve
 from meshjig.charts.dual import Dual, dual
 from meshjig.charts.judge import Judge
@@ -19,7 +20,7 @@ __all__ = ["segment"]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_TRIES = 2
+_WORTH_A_CHILD = 4000  # faces; below, a child process takes longer to start than it saves
 
 
 def segment(
@@ -27,7 +28,7 @@ def segment(
 ) -> Ints:
     """Label each face of one component with its chart.
 
-    Patches are merged to charts, more than once from other patches; the best division is taken.
+    Patches are merged to charts, twice from other patches, side by side; the better division is taken.
 
     Parameters
     ----------
@@ -46,8 +47,17 @@ def segment(
     if judge.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
     graph = dual(V, F)
-    found = [_search(V, F, graph, judge, n_patches, seed + n, rounds) for n in range(_TRIES)]
+    other = Background(_searched, V, F, n_patches, seed + 1, rounds, conformal, alone=len(F) < _WORTH_A_CHILD)
+    try:
+        found = _search(V, F, graph, judge, n_patches, seed, rounds), other.result()
+    except BaseException:
+        other.cancel()
+        raise
     return polish(F, graph, min(found, key=lambda label: _cost(graph, label)), judge)
+
+
+def _searched(V: Floats, F: Ints, n_patches: int, seed: int, rounds: int, conformal: bool) -> Ints:
+    return _search(V, F, dual(V, F), Judge(V, F, conformal=conformal), n_patches, seed, rounds)
 
 
 def _search(V: Floats, F: Ints, graph: Dual, judge: Judge, n_patches: int, seed: int, rounds: int) -> Ints:

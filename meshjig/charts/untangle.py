@@ -52,9 +52,10 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
 def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
     """Mark faces (m,) and rings of faces around them, (m,) bool."""
     reached = np.zeros(int(F.max()) + 1, bool)
+    a, b, c = np.ascontiguousarray(F.T)  # three looks at columns are quicker than any() along rows
     for _ in range(rings):
         reached[F[faces].ravel()] = True
-        faces = np.any(reached[F], axis=1)
+        faces = reached[a] | reached[b] | reached[c]
     return faces
 
 
