@@ -24,7 +24,7 @@ from benches import cells, charts
 MESHES = ("stanford-bunny.obj", "nefertiti.obj")
 SIZES = (50_000, 200_000, 1_000_000)
 PIECES = (50, 100, 200, 400)
-NOT_MAKING = ("check", "preview", "viewer")  # the peer neither judges nor draws
+NOT_MAKING = ("check", "preview", "viewer", "guide")  # the peer neither judges nor draws
 
 
 def main() -> int:
