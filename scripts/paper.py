@@ -25,7 +25,7 @@ from models.duck import duck
 from models.teapot import teapot
 from models.vases import slender_vase, vase
 
-TIMED = ("charts", "tiling", "cut", "stitch", "clearance", "solid")
+TIMED = ("charts", "tiling", "cut", "stitch", "seams", "clearance", "solid", "finish")
 RUNS = 3  # of which the quickest counts
 COMMON = {
     "size": 150.0,
