@@ -26,9 +26,13 @@ _PAPER, _PLATE, _PIECE, _INK = "#ffffff", "#ffffff", "#dcdcdc", "#000000"
 
 
 def number_of(name: str) -> str:
-    """Give what to write on a piece: the number that its name ends with, or the name."""
+    """Give what to write on a piece: the number that its name ends with, or the name.
+
+    A part of a core says so.
+    """
     found = re.search(r"(\d+)$", name)
-    return str(int(found[1])) if found else name
+    number = str(int(found[1])) if found else name
+    return f"core {number}" if name.startswith("core_") else number
 
 
 def draw_plates(folder: Path, laid: Sequence[Laid], plate: Plate) -> None:

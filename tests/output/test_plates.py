@@ -146,7 +146,7 @@ def test_no_pieces_need_no_plates():
 
 
 @pytest.mark.parametrize(
-    ("name", "text"), [("piece_007", "7"), ("piece_120", "120"), ("core", "core"), ("p0", "0")]
+    ("name", "text"), [("piece_007", "7"), ("piece_120", "120"), ("core_1", "core 1"), ("p0", "0")]
 )
 def test_a_piece_is_called_by_its_number(name, text):
     assert number_of(name) == text
