@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
+import contextlib
+import functools
 import importlib
 import os
 import pickle
@@ -10,11 +13,13 @@ import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
-__all__ = ["Background"]
+__all__ = ["Background", "share_cores"]
 
 _SERVE = "import sys; sys.path.insert(0, sys.argv[1]); from meshjig.background import _serve; _serve()"
+_GENTLE = 10  # niceness of what must not slow the caller down
+_PATIENCE = 10.0  # s; a child that hears nothing for so long ends itself
 
 
 class Background:
@@ -22,29 +27,28 @@ class Background:
 
     The child is a fresh interpreter, not a fork and not multiprocessing: neither threads nor an unguarded
     main module of the caller matter. When it can't be started or fails, the function runs in the caller
-    once the result is asked for, and raises there what it has to raise.
+    once the result is asked for, and raises there what it has to raise. A child that has answered waits some
+    seconds for more to do, since its imports take as long as much of what it is asked.
 
     Parameters
     ----------
     function : callable, at the top level of a module of meshjig
     *arguments : whatever pickle takes
     alone : bool, don't start a child; run when the result is asked for
+    gently : bool, leave the cores to others as long as these want them
     """
 
-    def __init__(self, function: Callable[..., Any], *arguments: Any, alone: bool = False) -> None:
+    def __init__(
+        self, function: Callable[..., Any], *arguments: Any, alone: bool = False, gently: bool = False
+    ) -> None:
         self._function, self._arguments = function, arguments
-        self._answer: bytes | None = None
+        self._answer: list[Any] = []
         self._thread: threading.Thread | None = None
-        self._child: subprocess.Popen[bytes] | None = None
+        self._child: _Child | None = None
         if alone or (os.cpu_count() or 1) < 2 or not sys.executable:
             return
         try:
-            self._child = subprocess.Popen(
-                [sys.executable, "-c", _SERVE, str(Path(__file__).parent.parent)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-            )
+            self._child = _idle_child(gently) or _Child(gently)
         except OSError:
             return
         self._thread = threading.Thread(target=self._talk, args=[self._child], daemon=True)
@@ -54,25 +58,115 @@ class Background:
         """Wait for what the function returns."""
         if self._thread is not None:
             self._thread.join()
-        if self._answer is not None:
-            return pickle.loads(self._answer)
-        return self._function(*self._arguments)
+        return self._answer[0] if self._answer else self._function(*self._arguments)
 
     def cancel(self) -> None:
         """End the child; nobody will ask for the result."""
-        if self._child is not None:
+        if self._child is not None and self._thread is not None and not self._answer:
             self._child.kill()
-            self._child.wait()
+            self._thread.join()
 
-    def _talk(self, child: subprocess.Popen[bytes]) -> None:
-        question = pickle.dumps((self._function.__module__, self._function.__qualname__, self._arguments))
-        answer, _ = child.communicate(question)
-        if child.returncode == 0 and answer:
-            self._answer = answer
+    def _talk(self, child: _Child) -> None:
+        try:
+            answer = child.ask((self._function.__module__, self._function.__qualname__, self._arguments))
+        except (OSError, EOFError, pickle.PickleError):
+            child.kill()
+            child.close()
+        else:
+            self._answer.append(answer)
+            _idle.append(child)
+
+
+class _Child:
+    """An interpreter that answers questions, one after the other."""
+
+    def __init__(self, gently: bool) -> None:
+        self.gently, self.owner = gently, os.getpid()
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _SERVE, str(Path(__file__).parent.parent), str(_GENTLE * gently)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+        )
+        self._questions = cast(IO[bytes], self._process.stdin)
+        self._answers = cast(IO[bytes], self._process.stdout)
+
+    def ask(self, question: Any) -> Any:
+        """Give the answer; OSError or EOFError when the child has failed."""
+        pickle.dump(question, self._questions, pickle.HIGHEST_PROTOCOL)
+        self._questions.flush()
+        return pickle.load(self._answers)
+
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    def close(self) -> None:
+        for pipe in (self._questions, self._answers):
+            with contextlib.suppress(OSError):
+                pipe.close()
+
+
+_idle: list[_Child] = []
+_taking = threading.Lock()
+
+
+def _idle_child(gently: bool) -> _Child | None:
+    """Take a child that waits, if there is one of this process's."""
+    with _taking:
+        waiting = [child for child in _idle if child.gently == gently and child.owner == os.getpid()]
+        for child in waiting:
+            _idle.remove(child)
+            if child.alive():
+                return child
+            child.close()
+    return None
+
+
+@atexit.register
+def _end_all() -> None:
+    for child in _idle:
+        if child.owner == os.getpid():
+            child.kill()
 
 
 def _serve() -> None:
-    """Answer one question from standard input on standard output."""
-    module, name, arguments = pickle.load(sys.stdin.buffer)
-    answer = getattr(importlib.import_module(module), name)(*arguments)
-    pickle.dump(answer, sys.stdout.buffer)
+    """Answer questions from standard input on standard output, until there are no more."""
+    if niceness := int(sys.argv[2]):
+        with contextlib.suppress(AttributeError, OSError):
+            os.nice(niceness)
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever native code prints
+    while True:
+        patience = threading.Timer(_PATIENCE, os._exit, [0])
+        patience.daemon = True
+        patience.start()
+        try:
+            module, name, arguments = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        patience.cancel()
+        answer = getattr(importlib.import_module(module), name)(*arguments)
+        pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
+        answers.flush()
+
+
+@functools.cache
+def share_cores() -> None:
+    """Let manifold3d use half of the cores in this process, for good; the others are a child's.
+
+    Its threads are counted when it first needs them, from the cores that are open to the caller then.
+    """
+    import manifold3d
+
+    if not hasattr(os, "sched_setaffinity"):
+        return
+    cores = sorted(os.sched_getaffinity(0))
+    os.sched_setaffinity(0, cores[: max(1, len(cores) // 2)])
+    try:
+        manifold3d.Manifold.sphere(1.0, 8).num_tri()
+    finally:
+        os.sched_setaffinity(0, cores)

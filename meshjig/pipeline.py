@@ -9,11 +9,12 @@ import numpy as np
 from meshjig.background import Background
 from meshjig.celled import cell_layout
 from meshjig.charting import chart, clean_scan
-from meshjig.check import judge, touched_pieces
+from meshjig.check import touched_pieces
 from meshjig.check.interlock import interlock
 from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
 from meshjig.errors import OptionError
 from meshjig.finishing import add_core, core_of, finished
+from meshjig.judged import judged
 from meshjig.layout import Layout, Parts
 from meshjig.measure import area_vectors, face_areas, sums
 from meshjig.options import Options
@@ -66,7 +67,8 @@ def make_puzzle(
     with stages("scan"):
         scan = clean_scan(mesh, options)
         surface = _with_short_edges(scan.mesh, options)
-    beside = Background(_beside_charts, scan.mesh, surface, options, alone=len(surface.F) < WORTH_A_CHILD)
+    small = len(surface.F) < WORTH_A_CHILD
+    beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
     try:
         if options.layout == "cells":
             layout = cell_layout(surface, options, stages)
@@ -91,21 +93,16 @@ def make_puzzle(
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [names[i] for i in sorted(touched)]
-        bodies = [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)]
-        verdict = judge(
-            bodies,
-            neighbours=locks.pairs[locks.faces_other(options.clearance)].tolist(),
-            thickness=options.thickness,
-            clearance=options.clearance,
-            min_wall=options.min_wall,
-            exempt_pieces=exempt,
-        )
+        solids, verdict, mended = judged(solids, names, locks, options, exempt)
+        solid_facts["dented"] = mended["dented"]
+        solid_facts["discarded_volume_share"] += mended["discarded"]
         on_surface = parts if options.clearance_method != "solid" else None
         report = assemble_report(options, scan, layout, on_surface, locks, verdict, solids, solid_facts)
         report["exempt_pieces"] = exempt
         if options.labels:
             report["labels"] = label_facts
         if options.core:
+            bodies = [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)]
             add_core(report, core, core_facts, bodies)
     if options.unique:
         report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]

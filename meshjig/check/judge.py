@@ -23,6 +23,7 @@ __all__ = ["Verdict", "judge"]
 
 OVERLAP_MM3 = 1e-3  # what two pieces may share by rounding
 GAP_SHARE = 0.95  # of the clearance, that every gap must keep
+NEAR_SHARE = 0.97  # of the clearance, under which a gap is worth mending
 WIDE_SHARE = 1.1  # of the clearance, that the median gap of all may have
 WIDE_PAIR_SHARE = 1.25  # of the clearance, that the median gap of two neighbours may have
 THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
@@ -38,6 +39,7 @@ class Verdict:
     failures: dict[str, list[str]] = field(default_factory=dict)  # promise: names of pieces
     exempt: dict[str, list[str]] = field(default_factory=dict)  # promise: exempt pieces that break it
     named: dict[str, list[str]] = field(default_factory=dict)  # counted, but no promise: its pieces
+    near: list[tuple[int, int]] = field(default_factory=list)  # pieces that keep less than the gap, yet some
 
     @property
     def ok(self) -> bool:
@@ -163,7 +165,9 @@ def judge(
         "head_neck": {"min": None, "median": None},
         "area_cv": None,
     }
-    return Verdict(checks, failures, exempt, {"thin_walls": [names[i] for i in thin]} if min_wall else {})
+    named = {"thin_walls": [names[i] for i in thin]} if min_wall else {}
+    near = [(i, j) for i, j, least in gap.pairs if least and least < NEAR_SHARE * (clearance or 0.0)]
+    return Verdict(checks, failures, exempt, named, near)
 
 
 def _crossings_and_thickness(meshes: list[Piece]) -> tuple[list[int], Thickness]:

@@ -1,5 +1,6 @@
 """From a labelled surface to solid pieces."""
 
+from meshjig.solid.apart import keep_apart
 from meshjig.solid.directions import miter_directions
 from meshjig.solid.kerf import kerf
 from meshjig.solid.pieces import INNER, OUTER, WALL, Solid, solidify
@@ -14,6 +15,7 @@ __all__ = [
     "Solid",
     "check_thickness",
     "displacement",
+    "keep_apart",
     "kerf",
     "miter_directions",
     "shell",

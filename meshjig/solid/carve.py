@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
-from meshjig.solid.apart import keep_apart
+from meshjig.background import share_cores
 from meshjig.solid.bodies import Body, arrays, body, largest, sound
 from meshjig.solid.crossings import crossing_pairs
 from meshjig.solid.cutters import cutters, round_cutters
@@ -15,7 +13,7 @@ from meshjig.solid.offsets import Offsets, Strip
 from meshjig.solid.pieces import Solid
 from meshjig.types import Floats, Ints
 
-__all__ = ["Carved", "carve", "moved_apart"]
+__all__ = ["Carved", "carve"]
 
 # mm; details of the booleans below this are dissolved: the first, or a later one where pieces would cross
 _SHORTEST = (0.003, 0.005, 0.01)
@@ -31,7 +29,6 @@ class Carved(NamedTuple):
     lost: float  # mm3, parts that came off and were left out
     parts: int  # how many those were
     state: str  # "clean", "rounded" or "mended": what it took; "crosses" or "uncut": what failed
-    dented: bool = False  # a neighbour was too near even so
 
 
 def carve(
@@ -53,9 +50,9 @@ def carve(
     Notes
     -----
     A piece that crosses itself afterwards is tried again with its slabs taken apart where they cross
-    themselves, then with the folds of the solid itself mended. Neighbours are only held apart here when both
-    are among the pieces.
+    themselves, then with the folds of the solid itself mended.
     """
+    share_cores()
     made = cutters(strip, offsets, clearance / 2)
     of_pair: dict[tuple[int, int], list[tuple[Ints, Body]]] = {}
     for quads, cutter in made:
@@ -75,16 +72,7 @@ def carve(
             continue
         own = [cutter for key in around[i] for cutter in of_pair[key]]
         carved[i] = _carved_with_care(solid, whole, own, strip, clearance / 2, first)
-    return moved_apart(carved, np.array(sorted(of_pair), np.int64).reshape(-1, 2), clearance)
-
-
-def moved_apart(carved: dict[int, Carved], pairs: Ints, clearance: float) -> dict[int, Carved]:
-    """Dent those of some neighbours that are still too near; see `keep_apart`."""
-    changed = keep_apart({i: (piece.V, piece.F) for i, piece in carved.items()}, pairs, clearance)
-    made = carved.copy()
-    for i, (V, F, lost) in changed.items():
-        made[i] = carved[i]._replace(V=V, F=F, lost=carved[i].lost + lost, dented=True)
-    return made
+    return carved
 
 
 def _carved_with_care(

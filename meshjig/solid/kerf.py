@@ -9,7 +9,7 @@ import numpy as np
 from meshjig.background import Background
 from meshjig.measure import mesh_volume
 from meshjig.solid.borders import border_chains
-from meshjig.solid.carve import Carved, carve, moved_apart
+from meshjig.solid.carve import Carved, carve
 from meshjig.solid.offsets import Offsets, Strip, mitered
 from meshjig.solid.pieces import Solid, solidify
 from meshjig.solid.wall_edges import split_bent_walls
@@ -53,7 +53,6 @@ def kerf(
         Those of `solidify`; "discarded_volume_share" and "split": the pieces that lost parts by it;
         "segments": quads of wall; "rounded": joints too sharp for a miter; "hulls": quads too twisted for
         one; "taken_apart", "mended": pieces whose slabs or folds had to be repaired;
-        "dented": pieces that were too near to a neighbour even so;
         "crossing", "uncut": pieces for which that failed, by number.
 
     Notes
@@ -83,8 +82,6 @@ def kerf(
     except BaseException:
         child.cancel()
         raise
-    neighbours = np.unique(chains.pair, axis=0)
-    carved = moved_apart(carved, neighbours[first[neighbours].sum(1) == 1], clearance)
     volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
     facts |= _counts(carved, volume)
     facts |= {
@@ -107,7 +104,6 @@ def _counts(carved: dict[int, Carved], volume: float) -> dict[str, Any]:
         "split": sorted(i for i, piece in carved.items() if piece.parts),
         "taken_apart": those("rounded"),
         "mended": those("mended"),
-        "dented": sorted(i for i, piece in carved.items() if piece.dented),
         "crossing": those("crosses"),
         "uncut": those("uncut"),
     }
