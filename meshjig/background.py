@@ -58,7 +58,9 @@ class Background:
         """Wait for what the function returns."""
         if self._thread is not None:
             self._thread.join()
-        return self._answer[0] if self._answer else self._function(*self._arguments)
+        if not self._answer:
+            self._answer.append(self._function(*self._arguments))
+        return self._answer[0]
 
     def cancel(self) -> None:
         """End the child; nobody will ask for the result."""

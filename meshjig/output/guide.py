@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,7 @@ def write_guide(
     report: Mapping[str, Any],
     *,
     plates: Mapping[str, int] | None = None,
-    cover: NDArray[np.uint8] | None = None,
+    cover: Callable[[], NDArray[np.uint8] | None] | None = None,
 ) -> None:
     """Write a guide on A4, good in black and white too. Equal input gives equal bytes.
 
@@ -45,8 +46,9 @@ def write_guide(
         left out, or made.
     plates : mapping, optional
         The plate that holds each piece, by the piece's name.
-    cover : (k, k, 3) uint8, optional
-        A picture of the puzzle; drawn if not given.
+    cover : callable, optional
+        Gives a picture of the puzzle, (k, k, 3) uint8, and is asked as late as can be; without one, or where
+        it gives None, it is drawn.
 
     Raises
     ------
@@ -58,7 +60,12 @@ def write_guide(
     assembly = assembly_of(pieces, report)
     on_plate = [(plates or {}).get(piece.name) for piece in pieces]
     listed = report.get("pieces", ())
-    picture = trimmed(draw_whole(pieces) if cover is None else cover)
+
+    @functools.cache
+    def picture() -> NDArray[np.uint8]:
+        given = None if cover is None else cover()
+        return trimmed(draw_whole(pieces) if given is None else given)
+
     joint = joint_of(pieces)
     chapters = [
         ("What you have", parts_pages(outlines(joint), on_plate)),
@@ -71,7 +78,7 @@ def write_guide(
     contents = [(name, start) for (name, _), start in zip(chapters, starts, strict=False)]
     n_plates = len({plate for plate in on_plate if plate is not None})
     with Sheets(path, title_of(report), n_pages=starts[-1] - 1) as sheets:
-        draw_cover(sheets, pieces, report, picture, contents, n_plates=n_plates, verified=assembly.verified)
+        draw_cover(sheets, pieces, report, picture(), contents, n_plates=n_plates, verified=assembly.verified)
         sheets.end_page("")
         for name, pages in chapters:
             _write(sheets, name, pages)

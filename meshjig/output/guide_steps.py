@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,6 +17,8 @@ from meshjig.output.guide_views import Camera, cameras, choose_cameras
 from meshjig.types import Floats
 
 __all__ = ["steps_pages"]
+
+Picture = Callable[[], NDArray[np.uint8]]  # gives (h, w, 3)
 
 _GRIDS = ((2, 3), (3, 2))  # columns and rows of pictures on a page
 _LINE, _NUMBER = 3.4, 15.0  # mm: a line of pieces, and room for the number of a step
@@ -61,14 +63,14 @@ class _Grid:
         return (BOTTOM - _START + _GAP) / self.rows - _GAP - self.caption
 
 
-def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: NDArray[np.uint8]) -> list[Page]:
+def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: Picture) -> list[Page]:
     """Draw all steps.
 
     Parameters
     ----------
     joint : Joint
     steps : sequence of sequence of int, pieces counted from 1
-    whole : (h, w, 3) uint8, a picture of the puzzle put together, for where the last page has room
+    whole : callable, gives a picture of the puzzle put together, for where the last page has room
 
     Returns
     -------
@@ -123,7 +125,7 @@ def _tag_pixels(piece: int) -> tuple[float, float]:
     return (width + 0.4) * _PIXELS, (height + 0.4) * _PIXELS
 
 
-def _draw(grid: _Grid, shots: Sequence[_Shot], whole: NDArray[np.uint8] | None, sheets: Sheets) -> None:
+def _draw(grid: _Grid, shots: Sequence[_Shot], whole: Picture | None, sheets: Sheets) -> None:
     for k, shot in enumerate(shots):
         row, column = divmod(k, grid.columns)
         x = LEFT + column * (grid.width + _GAP)
@@ -134,7 +136,7 @@ def _draw(grid: _Grid, shots: Sequence[_Shot], whole: NDArray[np.uint8] | None, 
         y = _START + used * (grid.height + grid.caption + _GAP)
         sheets.line(LEFT, y, RIGHT, y, width=0.3, grey=0.3)
         sheets.text(LEFT, y + 7, "Done", 17, strong=True)
-        sheets.fitted(LEFT, y + grid.caption, RIGHT - LEFT, BOTTOM - y - grid.caption, whole)
+        sheets.fitted(LEFT, y + grid.caption, RIGHT - LEFT, BOTTOM - y - grid.caption, whole())
 
 
 def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> None:

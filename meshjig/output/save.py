@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshjig.background import Background
 from meshjig.errors import OptionError
@@ -94,10 +95,10 @@ def save_puzzle(
 
             with _lap(seconds, "viewer"):
                 write_viewer(folder / FILE, pieces, report, plates=plates)
-        seconds |= pictures.result()
         if guide:
             with _lap(seconds, "guide"):
-                _write_guide(folder, pieces, report, plates)
+                _write_guide(folder, pieces, report, plates, pictures)
+        seconds |= pictures.result()
         from meshjig.output.report import write_report
 
         written = {**report, "timings_s": seconds}
@@ -145,14 +146,21 @@ def _normals(pieces: Sequence[Piece]) -> Floats | None:
 
 
 def _write_guide(
-    folder: Path, pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int] | None
+    folder: Path,
+    pieces: Sequence[Piece],
+    report: Mapping[str, Any],
+    plates: Mapping[str, int] | None,
+    pictures: Background,
 ) -> None:
-    """Write the guide, with the picture of the preview where there is one."""
+    """Write the guide, with the picture of the preview once that is there, if it is to be."""
     from meshjig.output.guide import FILE, write_guide
     from meshjig.output.guide_cover import cover_of_preview
 
-    drawn = folder / "preview.png"
-    cover = cover_of_preview(drawn) if drawn.exists() else None
+    def cover() -> NDArray[np.uint8] | None:
+        pictures.result()
+        drawn = folder / "preview.png"
+        return cover_of_preview(drawn) if drawn.exists() else None
+
     write_guide(folder / FILE, pieces, report, plates=plates, cover=cover)
 
 

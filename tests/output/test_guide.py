@@ -67,7 +67,7 @@ def few():
 
 
 def guide(path, pieces, report, plates=None):
-    write_guide(path, pieces, report, plates=plates, cover=np.full((40, 60, 3), 128, np.uint8))
+    write_guide(path, pieces, report, plates=plates, cover=lambda: np.full((40, 60, 3), 128, np.uint8))
     return pages_of(path)
 
 
