@@ -115,22 +115,20 @@ def judge(
                 blamed[promise] = [names[i] for i in sorted(found)]
 
     small = sum(len(F) for _, F in meshes) < WORTH_A_CHILD
-    beside = Background(_crossings_and_thickness, meshes, alone=small)
+    beside = Background(_each_alone, meshes, alone=small)
     try:
-        every = range(len(meshes))
-        hold("closed", [(i,) for i in every if not is_closed_as_stl(*meshes[i])])
-        hold("one_component", [(i,) for i in every if not is_one_component(meshes[i][1])])
-        hold("positive_volume", [(i,) for i in every if volume(*meshes[i]) <= 0])
         solids = bodies(meshes)
         low, high = boxes(meshes)
         gap = _gap(meshes, solids, pairs, clearance, close_boxes(low, high, default_reach(clearance)))
         apart = {(min(i, j), max(i, j)) for i, j, least in gap.pairs if least}
         shared = overlaps_of_bodies(solids, close_boxes(low, high, 0.0).tolist(), apart)
-        crossings, sheets = beside.result()
+        unsound, crossings, sheets = beside.result()
     except BaseException:
         beside.cancel()
         raise
-    hold("self_intersections", [(i,) for i in every if crossings[i]])
+    for promise, broken in unsound.items():
+        hold(promise, [(i,) for i in broken])
+    hold("self_intersections", [(i,) for i, n in enumerate(crossings) if n])
     sharing = [(i, j) for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3]
     hold("overlap_mm3", [*sharing, *((i,) for i in shared.unmeasured)])
     if clearance:
@@ -170,9 +168,15 @@ def judge(
     return Verdict(checks, failures, exempt, named, near)
 
 
-def _crossings_and_thickness(meshes: list[Piece]) -> tuple[list[int], Thickness]:
-    """Count the crossings of each piece, and measure all pieces' thickness."""
-    return [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
+def _each_alone(meshes: list[Piece]) -> tuple[dict[str, list[int]], list[int], Thickness]:
+    """List the pieces that are no sound solids, count the crossings of each, and measure their thickness."""
+    every = range(len(meshes))
+    unsound = {
+        "closed": [i for i in every if not is_closed_as_stl(*meshes[i])],
+        "one_component": [i for i in every if not is_one_component(meshes[i][1])],
+        "positive_volume": [i for i in every if volume(*meshes[i]) <= 0],
+    }
+    return unsound, [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
 
 
 def _named(pieces: Iterable[Sequence[Any]]) -> tuple[list[str], list[Piece]]:
