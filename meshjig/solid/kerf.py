@@ -19,7 +19,7 @@ from meshjig.types import Bools, Floats, Ints
 __all__ = ["kerf"]
 
 _WORTH_A_CHILD = 60_000  # faces of all solids
-_OWN_SHARE = 0.55  # of the faces; the child has to start first
+_OWN_SHARE = 0.46  # of the faces; the caller has to prepare them all
 
 
 def kerf(
