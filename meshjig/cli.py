@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from meshjig.config import read_options
 from meshjig.errors import OptionError
 from meshjig.flags import takes_options
-from meshjig.options import Options
 from meshjig.terminal import (
     BROKEN_PROMISE,
     INTERRUPTED,
@@ -77,7 +76,7 @@ def make(
 ) -> None:
     """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
     with sentences(verbose, quiet):
-        options = _options(config, flags)
+        options = read_options(config, flags)
         if dry_run:
             from meshjig.plan import plan_puzzle
 
@@ -120,7 +119,7 @@ def info(
 ) -> None:
     """Say what a mesh is, and what would be done to it."""
     with sentences(verbose, quiet):
-        options = _options(None, flags | ({"charts": method} if method else {}))
+        options = read_options(None, flags | ({"charts": method} if method else {}))
         if charts or method or output:
             from meshjig.charting import describe_charts
 
@@ -172,7 +171,7 @@ def coupon(
     with sentences(verbose, quiet):
         from meshjig.coupon import save_coupon
 
-        report = save_coupon(output, _options(config, flags))
+        report = save_coupon(output, read_options(config, flags))
         if as_json:
             print((output / "report.json").read_text(encoding="utf-8"))
         elif not quiet:
@@ -239,30 +238,3 @@ def main() -> None:
         if ending.code == INTERRUPTED:
             leave_interrupted()
         raise
-
-
-def _options(config: Path | None, flags: dict[str, Any]) -> Options:
-    given: dict[str, Any] = {}
-    try:
-        if config is not None:
-            given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
-            if isinstance(given.get("process"), dict):  # [process.NAME], chosen by --process
-                given["processes"] = given.pop("process")
-        options = Options.of(**given | flags)
-        if {"tile", "plate"} & (given.keys() | flags.keys()):
-            from meshjig.refusals import refuse_unknown_names
-
-            refuse_unknown_names(options)
-        return options
-    except OptionError as error:
-        say(f"meshjig: {error}")
-        raise typer.Exit(USAGE) from None
-
-
-def _read_toml(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise OptionError(f"config: {path} is no valid TOML ({error})") from None

@@ -4,7 +4,8 @@ import inspect
 
 import pytest
 
-from meshjig.cli import _options, make
+from meshjig.cli import make
+from meshjig.config import read_options
 from meshjig.errors import OptionError
 from meshjig.options import PROCESSES, Options
 
@@ -96,7 +97,7 @@ def test_a_process_is_named_by_a_word(process):
 )
 def test_a_config_file_holds_processes(toml, flags, tmp_path):
     (tmp_path / "shop.toml").write_text(toml)
-    options = _options(tmp_path / "shop.toml", flags)
+    options = read_options(tmp_path / "shop.toml", flags)
     assert (options.process, options.clearance, options.min_wall) == ("resin-x", 0.12, 0.6)
 
 

@@ -45,9 +45,8 @@ def read_asked(
     InputError
         The report is damaged.
     """
-    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
-    path = Path(given[0]) / "report.json" if len(given) == 1 else Path()
-    if not path.is_file():
+    path = _report_in(paths)
+    if path is None:
         return Asked()
     try:
         report = json.loads(path.read_text(encoding="utf-8"))
@@ -76,9 +75,8 @@ def read_missing(
         As for `read_pieces`. Only a single folder that holds a report.json tells anything.
     names : names of the pieces, and parts of the core, that were read
     """
-    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
-    path = Path(given[0]) / "report.json" if len(given) == 1 else Path()
-    if not path.is_file():
+    path = _report_in(paths)
+    if path is None:
         return []
     report = json.loads(path.read_text(encoding="utf-8"))
     listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
@@ -86,6 +84,12 @@ def read_missing(
         return []  # the pieces go by other names
     listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
     return sorted(set(listed) - set(names))
+
+
+def _report_in(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> Path | None:
+    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    path = Path(given[0]) / "report.json" if len(given) == 1 else Path()
+    return path if path.is_file() else None
 
 
 def _neighbours(pieces: list[dict[str, Any]], names: Sequence[str]) -> list[tuple[int, int]] | None:
