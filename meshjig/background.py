@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import functools
 import importlib
 import os
 import pickle
@@ -15,7 +14,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO, Any, cast
 
-__all__ = ["Background", "share_cores"]
+__all__ = ["Background"]
 
 _SERVE = "import sys; sys.path.insert(0, sys.argv[1]); from meshjig.background import _serve; _serve()"
 _GENTLE = 10  # niceness of what must not slow the caller down
@@ -154,21 +153,3 @@ def _serve() -> None:
         answer = getattr(importlib.import_module(module), name)(*arguments)
         pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
         answers.flush()
-
-
-@functools.cache
-def share_cores() -> None:
-    """Let manifold3d use half of the cores in this process, for good; the others are a child's.
-
-    Its threads are counted when it first needs them, from the cores that are open to the caller then.
-    """
-    import manifold3d
-
-    if not hasattr(os, "sched_setaffinity"):
-        return
-    cores = sorted(os.sched_getaffinity(0))
-    os.sched_setaffinity(0, cores[: max(1, len(cores) // 2)])
-    try:
-        manifold3d.Manifold.sphere(1.0, 8).num_tri()
-    finally:
-        os.sched_setaffinity(0, cores)

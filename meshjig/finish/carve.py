@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.finish.bodies import Body
+from meshjig.bodies import Body
 from meshjig.measure import unit
 from meshjig.types import Floats, Ints
 

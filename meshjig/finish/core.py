@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.bodies import Body, arrays, body, largest, sound
 from meshjig.errors import SolidError
-from meshjig.finish.bodies import Body, arrays, body, largest, sound
 from meshjig.finish.carve import carved
 from meshjig.finish.clear import cleared
 from meshjig.finish.close import closed_over
@@ -83,7 +83,7 @@ def make_core(
     made, near = cleared(made, G, around, aim)
     whole = body(made, G)
     if len(near):
-        whole = largest(carved(whole, V, F[near], aim))
+        whole = largest(carved(whole, V, F[near], aim))[0]
     if not sound(whole):
         raise SolidError(
             "the core can't be made, since the inner side of this model crosses itself", hint="leave it out"

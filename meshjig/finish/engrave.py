@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.finish.bodies import Body, arrays, body, sound
+from meshjig.bodies import Body, arrays, body, sound
 from meshjig.finish.groove import groove
 from meshjig.finish.inner import wall_behind
 from meshjig.finish.place import Place, places

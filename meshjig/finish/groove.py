@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.finish.bodies import Body, body
+from meshjig.bodies import Body, body
 from meshjig.types import Floats, Ints
 
 __all__ = ["TOP", "groove"]

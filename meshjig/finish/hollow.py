@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.finish.bodies import Body, arrays, body, sound
+from meshjig.bodies import Body, arrays, body, sound
 from meshjig.finish.depth import Depth
 from meshjig.finish.inset import inset_surface
 from meshjig.measure import unit

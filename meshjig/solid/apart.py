@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.solid.bodies import Body, arrays, body, largest, sound
+from meshjig.bodies import Body, arrays, body, largest, sound
 from meshjig.solid.crossings import crossing_pairs
 from meshjig.solid.cutters import ball
 from meshjig.types import Floats, Ints

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from meshjig.background import share_cores
-from meshjig.solid.bodies import Body, arrays, body, largest, sound
+from meshjig.bodies import Body, arrays, body, largest, share_cores, sound
 from meshjig.solid.crossings import crossing_pairs
 from meshjig.solid.cutters import cutters, round_cutters
 from meshjig.solid.mend import mended

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.bodies import Body, body, sound
 from meshjig.measure import unit
-from meshjig.solid.bodies import Body, body, sound
 from meshjig.solid.offsets import Offsets, Strip, mitered
 from meshjig.solid.slab import slabs
 from meshjig.types import Floats, Ints

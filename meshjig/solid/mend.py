@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.solid.bodies import Body, body, sound
+from meshjig.bodies import Body, body, sound
 from meshjig.solid.crossings import at_any_corner, crossing_pairs
 from meshjig.solid.pieces import OUTER, Solid, solidify
 

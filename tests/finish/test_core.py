@@ -4,10 +4,10 @@ import igl
 import numpy as np
 import pytest
 
+from meshjig.bodies import arrays, body
 from meshjig.check import judge
 from meshjig.check.closed import volume
 from meshjig.errors import SolidError
-from meshjig.finish.bodies import arrays, body
 from meshjig.finish.close import closed_over
 from meshjig.finish.core import make_core
 from meshjig.measure import face_areas, mesh_volume, vertex_normals

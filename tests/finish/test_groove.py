@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from meshjig.bodies import arrays
 from meshjig.check.closed import is_closed
 from meshjig.check.crossings import self_intersections
-from meshjig.finish.bodies import arrays
 from meshjig.finish.groove import TOP, groove
 from meshjig.finish.text import text_outline
 from meshjig.measure import area_vectors, unit

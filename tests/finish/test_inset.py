@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from meshjig.bodies import arrays, body, sound
 from meshjig.check.closed import is_closed
-from meshjig.finish.bodies import arrays, body, sound
 from meshjig.finish.carve import carved
 from meshjig.finish.depth import Depth
 from meshjig.finish.inset import inset_surface

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from meshjig.bodies import body
 from meshjig.check import gaps, is_closed_as_stl, is_one_component, overlaps, self_intersections
 from meshjig.output.printable import printable
 from meshjig.solid import displacement, kerf, solidify
-from meshjig.solid.bodies import body
 from meshjig.solid.borders import border_chains
 from meshjig.solid.mend import mended
 from meshjig.solid.pieces import OUTER

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import functools
+import os
 from typing import Any
 
 import numpy as np
 
 from meshjig.types import Floats, Ints
 
-__all__ = ["Body", "arrays", "body", "largest", "sound"]
+__all__ = ["Body", "arrays", "body", "largest", "share_cores", "sound"]
 
 Body = Any  # manifold3d.Manifold
 
@@ -45,3 +47,21 @@ def largest(solid: Body) -> tuple[Body, float, int]:
         return solid, 0.0, 0
     lost = sum(max(float(part.volume()), 0.0) for part in parts[1:])
     return parts[0], lost, len(parts) - 1
+
+
+@functools.cache
+def share_cores() -> None:
+    """Let manifold3d use half of the cores in this process, for good; the others are a child's.
+
+    Its threads are counted when it first needs them, from the cores that are open to the caller then.
+    """
+    import manifold3d
+
+    if not hasattr(os, "sched_setaffinity"):
+        return
+    cores = sorted(os.sched_getaffinity(0))
+    os.sched_setaffinity(0, cores[: max(1, len(cores) // 2)])
+    try:
+        manifold3d.Manifold.sphere(1.0, 8).num_tri()
+    finally:
+        os.sched_setaffinity(0, cores)
