@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from meshjig.check import Verdict, judge
-from meshjig.check.interlock import Interlock
 from meshjig.measure import mesh_volume
 from meshjig.options import Options
 from meshjig.output.printable import printable
@@ -21,7 +20,7 @@ Solid = tuple[Floats, Ints]
 
 
 def judged(
-    solids: list[Solid], names: Sequence[str], locks: Interlock, options: Options, exempt: Sequence[str]
+    solids: list[Solid], names: Sequence[str], neighbours: Ints, options: Options, exempt: Sequence[str]
 ) -> tuple[list[Solid], Verdict, dict[str, Any]]:
     """Judge the pieces of a puzzle, and dent those that are nearer to a neighbour than the gap.
 
@@ -32,7 +31,7 @@ def judged(
     ----------
     solids : list of (V, F), the pieces in order
     names : their names
-    locks : Interlock, which pieces are neighbours
+    neighbours : (k, 2) int64, pieces that face each other
     options : Options
     exempt : names of pieces that the surface's own crossings touch
 
@@ -43,7 +42,7 @@ def judged(
     facts : dict
         "dented": the numbers of pieces that have changed; "discarded": the share of the volume that came off.
     """
-    verdict = _verdict(solids, names, locks, options, exempt)
+    verdict = _verdict(solids, names, neighbours, options, exempt)
     if not verdict.near or options.clearance_method != "solid":
         return solids, verdict, {"dented": [], "discarded": 0.0}
     near = np.array(verdict.near)
@@ -54,15 +53,15 @@ def judged(
     lost = sum(gone for _, _, gone in changed.values())
     volume = sum(mesh_volume(V, F) for V, F in mended)
     facts = {"dented": sorted(changed), "discarded": lost / max(lost + volume, 1e-300)}
-    return mended, _verdict(mended, names, locks, options, exempt), facts
+    return mended, _verdict(mended, names, neighbours, options, exempt), facts
 
 
 def _verdict(
-    solids: list[Solid], names: Sequence[str], locks: Interlock, options: Options, exempt: Sequence[str]
+    solids: list[Solid], names: Sequence[str], neighbours: Ints, options: Options, exempt: Sequence[str]
 ) -> Verdict:
     return judge(
         [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)],
-        neighbours=locks.pairs[locks.faces_other(options.clearance)].tolist(),
+        neighbours=neighbours.tolist(),
         thickness=options.thickness,
         clearance=options.clearance,
         min_wall=options.min_wall,
