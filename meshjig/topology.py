@@ -91,20 +91,21 @@ def border_halfedges(F: Ints) -> Ints:
     return np.flatnonzero(twin == np.arange(len(twin)))
 
 
-def components(F: Ints, wall: Bools | None = None) -> tuple[int, Ints]:
+def components(F: Ints, wall: Bools | None = None, twin: Ints | None = None) -> tuple[int, Ints]:
     """Label faces that hang together over shared edges.
 
     Parameters
     ----------
     F : (m, 3) int64
     wall : (3 m,) bool, half-edges that don't connect
+    twin : (3 m,) int64, of the half-edges, where the caller has them
 
     Returns
     -------
     n : int
     component_of_face : (m,) int64
     """
-    twin = edges(F).twin
+    twin = edges(F).twin if twin is None else twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
     if wall is not None:
         h = h[~(wall[h] | wall[twin[h]])]
@@ -128,15 +129,20 @@ def compact(F: Ints) -> tuple[Ints, Ints]:
     return number[F], kept
 
 
-def fans(F: Ints) -> tuple[Ints, Ints]:
+def fans(F: Ints, twin: Ints | None = None) -> tuple[Ints, Ints]:
     """Split every vertex at which faces meet in more than one fan.
+
+    Parameters
+    ----------
+    F : (m, 3) int64
+    twin : (3 m,) int64, of the half-edges, where the caller has them
 
     Returns
     -------
     F : (m, 3) int64, into the split vertices
     origin : (n,) int64, the old vertex of every new one
     """
-    twin = edges(F).twin
+    twin = edges(F).twin if twin is None else twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
     t = twin[h]
     same = F.ravel()[h] == F.ravel()[t]  # inconsistent orientation: both run the same way

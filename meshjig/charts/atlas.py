@@ -84,13 +84,14 @@ def build_atlas(
         brought = own_uv(mesh, source, np.eye(4) if to_source is None else to_source)
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
     else:
-        V = steady(mesh.V, mesh.F, seed)
+        V = steady(mesh.V, mesh.F, seed, e)
         n, component = _components(e.twin)
         for c in range(n):
             faces = np.flatnonzero(component == c)
             F, kept = compact(mesh.F[faces])
+            known = e if len(faces) == len(mesh.F) and len(kept) == len(V) else None
             made = chart_component(
-                V[kept], F, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options
+                V[kept], F, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options, e=known
             )
             parts.append((faces, made))
     atlas = lay_out(mesh, [_shifted(chart, faces) for faces, made in parts for chart in made.charts], margin)

@@ -17,6 +17,7 @@ from meshjig.charts.single import single_chart
 from meshjig.charts.unwrap import unwrap
 from meshjig.charts.zip import zip_charts
 from meshjig.errors import ChartError
+from meshjig.topology import Edges, edges
 from meshjig.types import Floats, Ints, Mesh
 
 __all__ = ["GATE", "ComponentMethod", "chart_component"]
@@ -38,6 +39,7 @@ def chart_component(
     seed: int = 0,
     zipped: bool = True,
     xatlas_options: dict[str, Any] | None = None,
+    e: Edges | None = None,
 ) -> Charting:
     """Cut one component into charts.
 
@@ -53,6 +55,7 @@ def chart_component(
     seed : int
     zipped : bool, glue the charts of our own segmentation
     xatlas_options : dict, fields of xatlas.ChartOptions
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -68,22 +71,23 @@ def chart_component(
     if method == "periodic":
         return Charting(_rings(V, F, seed), "periodic")
     if len(F) > _HEAVY:
-        W, G = coarsened(V, F, _MIDDLE)
+        e = edges(F) if e is None else e
+        W, G = coarsened(V, F, _MIDDLE, e)
         if len(G) < len(F):
             middle = smoothed(W, G, _PASSES), G
-            return _of_heavy(V, F, middle, method, seed, zipped, xatlas_options)
-    light = proxy(V, F)
+            return _of_heavy(V, F, e, middle, method, seed, zipped, xatlas_options)
+    light = proxy(V, F, e=e)
     if method == "single":
         return single_chart(V, F, light, seed)
     if method == "xatlas":
         label = unwrap(*light, seed, xatlas_options)
-        return Charting(own_charts(V, F, light, label, "slim", seed=seed).charts, "xatlas")
+        return Charting(own_charts(V, F, light, label, "slim", seed=seed, e=e).charts, "xatlas")
     rings, note = _good_rings(V, F, light, seed) if method == "auto" else (None, "")
     if rings is not None and _seams(V, F, rings) <= _FEW_SEAMS:
         return rings
     flattening = "slim" if method == "auto" else method
     label = segment(*light, seed=seed, conformal=flattening == "lscm")
-    own = own_charts(V, F, light, label, flattening, seed=seed, zipped=zip_charts if zipped else None)
+    own = own_charts(V, F, light, label, flattening, seed=seed, zipped=zip_charts if zipped else None, e=e)
     if rings is not None and _seams(V, F, rings) <= _seams(V, F, own):
         return rings
     return Charting(own.charts, own.method, own.leaf, note)
@@ -92,6 +96,7 @@ def chart_component(
 def _of_heavy(
     V: Floats,
     F: Ints,
+    e: Edges,
     middle: tuple[Floats, Ints],
     method: ComponentMethod,
     seed: int,
@@ -108,7 +113,7 @@ def _of_heavy(
         found = chart_component(*middle, "slim", seed=seed, zipped=zipped)
     light_leaf = np.zeros(len(middle[1]), np.int64) if found.leaf is None else found.leaf
     flattening: Method = "lscm" if method == "lscm" else "slim"
-    charts, leaf = carry_over(V, F, middle, light_leaf, found.charts, flattening, seed, settles=False)
+    charts, leaf = carry_over(V, F, middle, light_leaf, found.charts, flattening, seed, settles=False, e=e)
     return Charting(charts, found.method, leaf, note)
 
 

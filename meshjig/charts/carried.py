@@ -6,12 +6,13 @@ from meshjig.charts.carry import Carrier
 from meshjig.charts.chart import Chart, plain
 from meshjig.charts.dual import dual
 from meshjig.charts.flatten import Method, flat_share
+from meshjig.charts.nearest import nearest
 from meshjig.charts.patches import patches
 from meshjig.charts.proxy import coarsened
 from meshjig.charts.rescue import rescue
 from meshjig.charts.transfer import transfer_labels
 from meshjig.measure import face_areas
-from meshjig.topology import compact, components, edges
+from meshjig.topology import Edges, compact, components, edges
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["carry_over"]
@@ -28,6 +29,7 @@ def carry_over(
     method: Method,
     seed: int = 0,
     settles: bool = True,
+    e: Edges | None = None,
 ) -> tuple[list[Chart], Ints]:
     """Make charts of a light mesh charts of the mesh that it stands for.
 
@@ -40,6 +42,7 @@ def carry_over(
     method : str, how what can't be carried is flattened
     seed : int
     settles : bool, whether to look for details of the mesh that the proxy has not seen
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -54,9 +57,10 @@ def carry_over(
         A face has no area.
     """
     W, G = light
-    e = edges(F)
-    leaf = transfer_labels(V, F, W, G, light_leaf, e)
-    carrier = Carrier(V, F, leaf, W, G, light_leaf, e, settles)
+    e = edges(F) if e is None else e
+    places = nearest(V, W, G)
+    leaf = transfer_labels(V, F, W, G, light_leaf, e, places)
+    carrier = Carrier(V, F, leaf, W, G, light_leaf, e, places, settles)
     carried: list[Chart] = []
     for chart in charts:
         made, missing = _carried(carrier, chart, light_leaf)

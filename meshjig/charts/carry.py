@@ -5,12 +5,12 @@ import numpy as np
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
 from meshjig.charts.flatten import flat_share, is_unflipped, ring_is_simple, unit_stretch
+from meshjig.charts.nearest import Nearest, nearest
 from meshjig.charts.part import part
 from meshjig.charts.region import single_loop
 from meshjig.charts.settle import settle
 from meshjig.charts.slim import slim
 from meshjig.charts.strays import without_strays
-from meshjig.charts.transfer import transfer_uv
 from meshjig.charts.untangle import untangle
 from meshjig.topology import Edges, compact, edges
 from meshjig.types import Bools, Floats, Ints
@@ -36,6 +36,7 @@ class Carrier:
     W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
     light_leaf : (m',) int64, 0 to k - 1
     e : Edges, of F, where the caller has them
+    places : Nearest, of all V on the proxy, where the caller has them
     settles : bool, whether to look for details of the mesh that the proxy has not seen
     """
 
@@ -48,10 +49,12 @@ class Carrier:
         G: Ints,
         light_leaf: Ints,
         e: Edges | None = None,
+        places: Nearest | None = None,
         settles: bool = True,
     ) -> None:
         self._V, self._F, self.leaf = V, F, leaf
         self._W, self._G, self._light_leaf = W, G, light_leaf
+        self._places = nearest(V, W, G) if places is None else places
         self._n_leaves, self._settles = int(max(leaf.max(), light_leaf.max())) + 1, settles
         self._e, self._light = edges(F) if e is None else e, edges(G)
         self._sides, self._light_sides = _sides(self._e, leaf), _sides(self._light, light_leaf)
@@ -74,7 +77,7 @@ class Carrier:
         if not len(faces):  # none of the mesh was nearest to them
             return None
         cut = self._cut_around(is_chosen, chart)
-        corners = cut_faces(self._e, cut, faces)
+        corners = cut_faces(self._F, self._e, cut, faces)
         border = self._border(cut, faces, corners)
         if border is None:
             return None
@@ -156,16 +159,20 @@ class Carrier:
         """Place corners where their leaf says, and corners of several leaves in the middle."""
         n = int(corners.max()) + 1
         total, count = np.zeros((n, 2)), np.zeros(n)
+        number = np.empty(len(self._G), np.int64)
+        number[chart.faces] = np.arange(len(chart.faces))
         for leaf in np.unique(self._light_leaf[chart.faces]):
-            light = self._light_leaf[chart.faces] == leaf
             own = self.leaf[faces] == leaf
-            H, light_kept = compact(self._G[chart.faces[light]])
-            uv = np.empty((len(light_kept), 2))
-            uv[H] = chart.uv[chart.corners[light]]
             G, kept = compact(self._F[faces[own]])
             row = np.empty(len(kept), np.int64)
             row[G] = corners[own]
-            total[row] += transfer_uv(self._V[kept], self._W[light_kept], H, uv)
+            face, bary = self._places.face[kept], self._places.bary[kept]
+            strange = np.flatnonzero(self._light_leaf[face] != leaf)  # nearer to another leaf
+            light = np.flatnonzero(self._light_leaf == leaf)
+            if len(strange):
+                again = nearest(self._V[kept[strange]], self._W, self._G[light])
+                face[strange], bary[strange] = light[again.face], again.bary
+            total[row] += Nearest(number[face], bary).interpolated(chart.corners, chart.uv)
             count[row] += 1
         return total / count[:, None]
 
@@ -178,10 +185,11 @@ def _nearest(points: Floats, others: Floats) -> Ints:
 
 
 def _sides(e: Edges, label: Ints) -> Ints:
-    """Give the labels on both sides of every edge, lower first; twice the same on a border, (e, 2)."""
-    sides = np.empty((len(e.E), 2), np.int64)
-    h = np.arange(len(e.twin))
-    sides[e.edge_of_halfedge[h]] = np.sort(np.stack([label[h // 3], label[e.twin[h] // 3]], 1), axis=1)
+    """Give the labels on both sides of every edge, lower first; twice 0 where they are the same, (e, 2)."""
+    sides = np.zeros((len(e.E), 2), np.int64)
+    here, there = np.repeat(label, 3), label[e.twin // 3]
+    h = np.flatnonzero(here != there)
+    sides[e.edge_of_halfedge[h]] = np.sort(np.stack([here[h], there[h]], 1), axis=1)
     return sides
 
 

@@ -24,18 +24,19 @@ def cut_open(F: Ints, e: Edges, cut: Bools) -> tuple[Ints, Ints]:
     corners : (m, 3) int64, into the copies; faces are joined over uncut edges only
     origin : (n,) int64, the vertex of every copy
     """
-    corners = cut_faces(e, cut, np.arange(len(F)))
+    corners = cut_faces(F, e, cut, np.arange(len(F)))
     origin = np.empty(int(corners.max(initial=-1)) + 1, np.int64)
     origin[corners] = F
     return corners, origin
 
 
-def cut_faces(e: Edges, cut: Bools, faces: Ints) -> Ints:
-    """Cut open some of the faces only, in a time that does not depend on the others.
+def cut_faces(F: Ints, e: Edges, cut: Bools, faces: Ints) -> Ints:
+    """Cut open some of the faces only.
 
     Parameters
     ----------
-    e : Edges, of a manifold, oriented mesh
+    F : (m, 3) int64, manifold, oriented
+    e : Edges, of F
     cut : (e,) bool; all edges where the faces meet others are cut
     faces : (k,) int64
 
@@ -43,15 +44,21 @@ def cut_faces(e: Edges, cut: Bools, faces: Ints) -> Ints:
     -------
     corners : (k, 3) int64, numbers of copies, 0 to n - 1; faces hang together over uncut edges
     """
-    corner = (3 * faces[:, None] + np.arange(3)).ravel()
-    number = np.full(len(e.twin), -1)
-    number[corner] = np.arange(len(corner))
-    h = corner[(e.twin[corner] > corner) & ~cut[e.edge_of_halfedge[corner]]]
-    t = e.twin[h]
-    rows, cols = number[np.append(h, next_halfedge(h))], number[np.append(next_halfedge(t), t)]
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(len(corner), len(corner)))
-    _, copy = connected_components(graph, directed=False)
-    return copy.reshape(-1, 3).astype(np.int64)
+    vertex = F[faces].ravel()
+    whole = np.zeros(int(e.E.max(initial=-1)) + 1, bool)  # vertices that stay one
+    whole[vertex] = True
+    whole[e.E[cut].ravel()] = False
+    copy = (np.cumsum(whole) - 1)[vertex]
+    split = np.flatnonzero(~whole[vertex])
+    h = 3 * faces[split // 3] + split % 3
+    number = np.empty(len(e.twin), np.int64)
+    number[h] = np.arange(len(h))
+    rows = np.flatnonzero((e.twin[h] != h) & ~cut[e.edge_of_halfedge[h]])
+    cols = number[next_halfedge(e.twin[h[rows]])]
+    graph = coo_matrix((np.ones(len(rows)), (rows, cols)), shape=(len(h), len(h)))
+    _, part = connected_components(graph, directed=False)
+    copy[split] = whole.sum() + part
+    return _as_they_come(copy).reshape(-1, 3)
 
 
 def chains(E: Ints, stops: Ints) -> list[Ints]:
@@ -66,10 +73,12 @@ def chains(E: Ints, stops: Ints) -> list[Ints]:
     -------
     list of int64 arrays, rows of E in order along the chain; a loop starts anywhere
     """
-    n = int(E.max(initial=-1)) + 1
+    vertex, E = _renumbered(E)
+    stops = np.flatnonzero(np.isin(vertex, stops))
+    n = len(vertex)
     degree = np.bincount(E.ravel(), minlength=n)
     node = degree != 2
-    node[stops[stops < n]] = True
+    node[stops] = True
     order = np.argsort(E.ravel(), kind="stable")
     start = np.append(0, np.cumsum(degree)).tolist()
     at_vertex, ends, is_node = (order // 2).tolist(), E.tolist(), node.tolist()
@@ -92,3 +101,17 @@ def chains(E: Ints, stops: Ints) -> list[Ints]:
     ]
     found += [walk(row, ends[row][0]) for row in range(len(ends))]
     return [np.array(chain, np.int64) for chain in found if chain]
+
+
+def _renumbered(E: Ints) -> tuple[Ints, Ints]:
+    """Give the vertices that edges have, in order, and the edges with these numbered from 0."""
+    vertex, number = np.unique(E, return_inverse=True)
+    return vertex, number.reshape(E.shape)
+
+
+def _as_they_come(number: Ints) -> Ints:
+    """Number things (k,) anew in the order in which they first come: neighbours stay near in memory."""
+    first, place = np.empty(int(number.max(initial=-1)) + 1, np.int64), np.arange(len(number))
+    first[number[::-1]] = place[::-1]
+    first = first[number]
+    return (np.cumsum(first == place) - 1)[first]

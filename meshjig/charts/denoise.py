@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.measure import vertex_normals
+from meshjig.measure import edge_lengths, vertex_normals
 from meshjig.topology import Edges, edges
 
 __all__ = ["denoise", "smoothed"]
@@ -22,7 +22,7 @@ _SHRINK, _GROW = (
 )  # Taubin's steps: what the first takes from the large shape, the second gives back
 
 
-def denoise(V: Floats, F: Ints) -> Floats:
+def denoise(V: Floats, F: Ints, e: Edges | None = None) -> Floats:
     """Smooth a surface whose vertices are strewn about it at random; leave any other as it is.
 
     Each vertex stands above or below the mean of its neighbours. On a smooth shape, however finely
@@ -33,6 +33,7 @@ def denoise(V: Floats, F: Ints) -> Floats:
     ----------
     V : (n, 3) float64, mm
     F : (m, 3) int64, manifold, using every vertex
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -42,7 +43,7 @@ def denoise(V: Floats, F: Ints) -> Floats:
     ----------
     Taubin, "A Signal Processing Approach to Fair Surface Design", 1995.
     """
-    e = edges(F)
+    e = edges(F) if e is None else e
     mean = _mean(len(V), e.E)
     if not _is_noisy(V, F, e.E, mean):
         return V
@@ -83,12 +84,14 @@ def _taubin(V: Floats, e: Edges, mean: Any, passes: int) -> Floats:
     free[e.E[e.n_faces == 1].ravel()] = 0
     for _ in range(passes):
         for step in (_SHRINK, _GROW):
-            V = V + step * free * (mean @ V - V)
+            move = mean @ V - V
+            move *= step * free
+            V = V + move
     return V
 
 
 def _is_noisy(V: Floats, F: Ints, E: Ints, mean: Any) -> bool:
     height = np.einsum("ij,ij->i", V - mean @ V, vertex_normals(V, F))
-    edge = np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1).mean()
+    edge = edge_lengths(V, E).mean()
     alike = (height[E[:, 0]] * height[E[:, 1]]).sum() / max(float((height[E] ** 2).sum() / 2), 1e-300)
     return bool(alike < _LIKE and np.abs(height).mean() > _HIGH * edge)

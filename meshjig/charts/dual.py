@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.measure import area_vectors, unit
+from meshjig.measure import area_vectors, edge_lengths, unit
 from meshjig.topology import edges
 
 __all__ = ["Dual", "dual"]
@@ -59,7 +59,7 @@ def dual(V: Floats, F: Ints) -> Dual:
     area = np.linalg.norm(normal, axis=1) / 2
     normal = unit(normal)
     centre, middle = V[F].mean(1), V[ends].mean(1)
-    length = np.linalg.norm(V[ends[:, 0]] - V[ends[:, 1]], axis=1)
+    length = edge_lengths(V, ends)
     span = np.linalg.norm(centre[first] - middle, axis=1) + np.linalg.norm(centre[second] - middle, axis=1)
     bend = np.clip(np.einsum("ij,ij->i", normal[first], normal[second]), -1, 1)
     return Dual(first, second, ends, length, span, bend, h, e.twin[h], centre, normal, area)

@@ -8,6 +8,7 @@ from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
+from meshjig.topology import Edges
 from meshjig.types import Floats, Ints
 
 __all__ = ["own_charts"]
@@ -27,6 +28,7 @@ def own_charts(
     *,
     seed: int = 0,
     zipped: Zip | None = None,
+    e: Edges | None = None,
 ) -> Charting:
     """Flatten labelled regions of a component, glue them, and make them charts of the mesh.
 
@@ -38,6 +40,7 @@ def own_charts(
     method : str, how charts are flattened
     seed : int
     zipped : callable, glues charts of the proxy; none are glued without it
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -62,7 +65,7 @@ def own_charts(
         charts = [one for chart in glued for one in _flattened_by(W, G, chart, method, leaves, light_leaf)]
     if G is F:
         return Charting(charts, method, light_leaf)
-    carried, full_leaf = carry_over(V, F, light, light_leaf, charts, method, seed)
+    carried, full_leaf = carry_over(V, F, light, light_leaf, charts, method, seed, e=e)
     return Charting(carried, method, full_leaf)
 
 

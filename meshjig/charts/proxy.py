@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from meshjig.charts.coarsen import coarsen
 from meshjig.errors import ChartError
 from meshjig.measure import vertex_normals
-from meshjig.topology import edges, fans
+from meshjig.topology import Edges, edges, fans
 
 __all__ = ["coarsened", "proxy"]
 
@@ -17,7 +17,7 @@ _HEAVY = 8  # times as many faces as wanted: from there on, decimation takes too
 _ROUGH = 0.25  # mean of 1 - cos between vertex normals over an edge; smooth shapes stay below 0.1
 
 
-def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
+def proxy(V: Floats, F: Ints, n_faces: int = 5000, e: Edges | None = None) -> tuple[Floats, Ints]:
     """Decimate one component to about n_faces, with its topology kept but for vertices that pinch.
 
     Noise is smoothed away before: it would count as curvature.
@@ -27,6 +27,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     V : (n, 3) float64, mm
     F : (m, 3) int64, manifold, one component
     n_faces : int
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -40,7 +41,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     """
     if len(F) <= 1.5 * n_faces:
         return V, F
-    V, F = coarsened(V, F, _HEAVY * n_faces)
+    V, F = coarsened(V, F, _HEAVY * n_faces, e)
     try:
         import pymeshlab
     except ImportError as error:
@@ -53,6 +54,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
         meshes.apply_coord_taubin_smoothing(stepsmoothnum=10)
     meshes.meshing_decimation_quadric_edge_collapse(
         targetfacenum=n_faces,
+        preserveboundary=False,
         preservetopology=True,
         preservenormal=True,
         qualitythr=0.5,
@@ -65,10 +67,13 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000) -> tuple[Floats, Ints]:
     return np.ascontiguousarray(mesh.vertex_matrix()[origin]), G
 
 
-def coarsened(V: Floats, F: Ints, n_faces: int) -> tuple[Floats, Ints]:
-    """Make a mesh coarser, by four at a time, until it has n_faces at most; itself where that can't be."""
-    while len(F) > n_faces and (light := coarsen(V, F)) is not None:
-        V, F = light
+def coarsened(V: Floats, F: Ints, n_faces: int, e: Edges | None = None) -> tuple[Floats, Ints]:
+    """Make a mesh coarser, by four at a time, until it has n_faces at most; itself where that can't be.
+
+    Its edges may be given where the caller has them.
+    """
+    while len(F) > n_faces and (light := coarsen(V, F, e=e)) is not None:
+        (V, F), e = light, None
     return V, F
 
 

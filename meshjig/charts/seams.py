@@ -11,7 +11,7 @@ from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
 from meshjig.charts.flatten import FLAT_LIMITS
 from meshjig.charts.glue import glue
-from meshjig.measure import face_areas, singular_values
+from meshjig.measure import edge_lengths, face_areas, singular_values
 from meshjig.topology import edges, next_halfedge
 from meshjig.types import Floats, Ints
 
@@ -59,7 +59,7 @@ class Seams:
         self._half[self._e.edge_of_halfedge[h]] = h
         self._cut = np.zeros(len(self._e.E), bool)
         self._cut[self._e.edge_of_halfedge[h]] = self.chart[h // 3] != self.chart[twin[h] // 3]
-        self._length = np.linalg.norm(V[self._e.E[:, 1]] - V[self._e.E[:, 0]], axis=1)
+        self._length = edge_lengths(V, self._e.E)
         self._rim = np.unique(self._e.E[self._e.n_faces == 1])
 
     def charts(self) -> list[Chart]:
@@ -67,7 +67,7 @@ class Seams:
         out = []
         for number in self.numbers():
             faces = np.flatnonzero(self.chart == number)
-            corners = cut_faces(self._e, self._cut, faces)
+            corners = cut_faces(self._F, self._e, self._cut, faces)
             uv = np.empty((int(corners.max()) + 1, 2))
             uv[corners] = np.stack([self._place[faces].real, self._place[faces].imag], -1)
             out.append(Chart(faces, uv, corners))
@@ -148,7 +148,7 @@ class Seams:
             place[second] = place[second] * arc.fit.turn + arc.fit.shift
         closed = self._cut.copy()
         closed[rows] = False
-        before, after = (cut_faces(self._e, cut, faces) for cut in (self._cut, closed))
+        before, after = (cut_faces(self._F, self._e, cut, faces) for cut in (self._cut, closed))
         within = float(self._within[faces].sum() / self.area[faces].sum())
         least_share = min(least_share, within - _MAY_LOSE)
         made, effort = glue(self._V, self._F[faces], before, after, place, least_share)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from meshjig.measure import edge_lengths
 from meshjig.topology import edges
 from meshjig.types import Floats, Ints
 
@@ -32,8 +33,7 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
 
     n = len(V)
     sides = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
-    flat, long = (((X[sides[:, 1]] - X[sides[:, 0]]) ** 2 @ np.ones(X.shape[1])) for X in (uv, V))
-    is_sound = flat <= _LONGEST**2 * long
+    is_sound = edge_lengths(uv, sides) <= _LONGEST * edge_lengths(V, sides)
     if is_sound.all():
         return uv
     sound = sides[is_sound]

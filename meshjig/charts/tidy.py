@@ -74,8 +74,8 @@ def _parts(label: Ints, around: Ints) -> tuple[int, Ints]:
 
     joined = (around >= 0) & (label[around] == label[:, None])
     start = np.append(0, np.cumsum(joined.sum(1)))
-    graph = csr_matrix((np.ones(start[-1], np.int8), around[joined], start), shape=(len(label),) * 2)
-    n, part = connected_components(graph, directed=False)
+    graph = csr_matrix((np.ones(start[-1]), around[joined], start), shape=(len(label),) * 2)
+    n, part = connected_components(graph, connection="strong")  # without turning the matrix
     return int(n), part
 
 

@@ -4,9 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.dual import Dual, dual
+from meshjig.charts.nearest import Nearest, nearest
 from meshjig.charts.smooth import diffusion
 from meshjig.charts.tidy import tidy
-from meshjig.measure import area_vectors, barycentric, interpolate
+from meshjig.measure import area_vectors
 from meshjig.topology import Edges, edges, next_halfedge
 
 __all__ = ["transfer_labels", "transfer_uv"]
@@ -19,11 +20,18 @@ _REACHES = (0.02, 0.005, 0.0)  # of the root of the area: a proxy's faces show a
 _FOLD = 0.75  # cosine between normals; over sharper edges shares are not averaged
 _SURE = 0.999  # the share from which a label has no rival
 _LONG = 2.0  # times that reach: sides of faces so large that their borders are straight already
-_BEYOND = 20.0  # barycentric coordinate: how far beyond a face its plane is followed
 _AT_ONCE = 2_000_000  # numbers to hold in memory
 
 
-def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints, e: Edges | None = None) -> Ints:
+def transfer_labels(
+    V: Floats,
+    F: Ints,
+    W: Floats,
+    G: Ints,
+    label: Ints,
+    e: Edges | None = None,
+    places: Nearest | None = None,
+) -> Ints:
     """Give each face of a mesh the label that its place on a proxy has, with borders made straight.
 
     On the proxy, labels diffuse into shares; they are interpolated like colours, so that borders of
@@ -35,17 +43,19 @@ def transfer_labels(V: Floats, F: Ints, W: Floats, G: Ints, label: Ints, e: Edge
     W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
     label : (m',) int64, 0 to k - 1
     e : Edges, of F, where the caller has them
+    places : Nearest, of all V, where the caller has them
 
     Returns
     -------
     label : (m,) int64. A label may come out empty, or as no disc: the caller checks.
     """
     twin = (edges(F) if e is None else e).twin
+    places = nearest(V, W, G) if places is None else places
     k = int(label.max()) + 1
     wanted = _euler_numbers(G, edges(G).twin, label, k)
     best, fewest = label, k + 1
     for reach in _REACHES:  # farther, strips get lost through which a label is a disc
-        carried = _carried(V, F, twin, W, G, _shares(W, G, label, reach))
+        carried = _carried(V, F, twin, W, G, _shares(W, G, label, reach), places)
         broken = int((_euler_numbers(F, twin, carried, k) != wanted).sum())
         if broken < fewest:
             best, fewest = carried, broken
@@ -64,24 +74,26 @@ def _euler_numbers(F: Ints, twin: Ints, label: Ints, k: int) -> Ints:
     return corners - 2 * np.bincount(label, minlength=k) + np.bincount(inner, minlength=k)
 
 
-def _carried(V: Floats, F: Ints, twin: Ints, W: Floats, G: Ints, share: Floats) -> Ints:
+def _carried(V: Floats, F: Ints, twin: Ints, W: Floats, G: Ints, share: Floats, places: Nearest) -> Ints:
     """Give each face the label with most share where it is nearest to the proxy."""
     best = share.argmax(2)
     sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
-    clear = np.where(sure, best[:, 0], -1)
-    near, _ = _nearest(V, W, G)
-    of_corner = clear[near][F]
-    known = np.where((of_corner == of_corner[:, :1]).all(1), of_corner[:, 0], -1)
-    N, M = area_vectors(V, F), area_vectors(W, G)
+    clear = np.where(sure, best[:, 0], -1)[places.face]
+    a, b, c = (clear.take(corner) for corner in F.T)
+    known = np.where((a == b) & (b == c), a, -1)
     rivals = np.flatnonzero(known < 0)
-    centre, bary = _nearest(V[F[rivals]].mean(1), W, G)
+    centre, bary = nearest(V[F[rivals]].mean(1), W, G)
     known[rivals] = _strongest(share, centre, np.clip(bary, 0, 1))
-    seen = M[near][F].sum(1)
-    seen[rivals] = M[centre]
-    same_side = np.einsum("ij,ij->i", N, seen) >= 0  # of a thin sheet
-    if same_side.any():
-        known[~same_side] = -1
-    return tidy(F, known, np.linalg.norm(N, axis=1), twin)
+    N, M = area_vectors(V, F), area_vectors(W, G)
+    same_side = np.zeros(len(F))  # of a thin sheet
+    for own, seen in zip(N.T, M.T, strict=True):
+        at_corner = seen[places.face]
+        total = at_corner.take(F[:, 0]) + at_corner.take(F[:, 1]) + at_corner.take(F[:, 2])
+        total[rivals] = seen[centre]
+        same_side += own * total
+    if same_side.max() >= 0:
+        known[same_side < 0] = -1
+    return tidy(F, known, np.sqrt(np.einsum("ij,ij->i", N, N)), twin)
 
 
 def _shares(W: Floats, G: Ints, label: Ints, reach: float) -> Floats:
@@ -142,14 +154,6 @@ def _strongest(share: Floats, face: Ints, bary: Floats) -> Ints:
     return out
 
 
-def _nearest(points: Floats, W: Floats, G: Ints) -> tuple[Ints, Floats]:
-    """Give the face of a mesh that is nearest to each point, and the place in its plane."""
-    import igl
-
-    _, face, _ = igl.point_mesh_squared_distance(points, W, G)
-    return face, barycentric(W, G, face, points)
-
-
 def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:
     """Give points the place in the plane that their nearest point on a proxy chart has.
 
@@ -165,7 +169,4 @@ def transfer_uv(V: Floats, W: Floats, G: Ints, uv: Floats) -> Floats:
     -------
     uv : (n, 2) float64, mm. Faces may come out mirrored: see untangle.
     """
-    face, bary = _nearest(V, W, G)
-    bary = np.clip(bary, -_BEYOND, _BEYOND)
-    bary[:, 0] = 1 - bary[:, 1] - bary[:, 2]
-    return interpolate(uv, G, face, bary)
+    return nearest(V, W, G).interpolated(G, uv)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.measure import singular_values
+from meshjig.measure import edge_lengths, singular_values
 from meshjig.topology import compact, edges
 
 __all__ = ["faces_around", "untangle"]
@@ -36,8 +36,8 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
     -------
     uv : (n, 2) float64, mm. Mirrored faces may be left: the caller checks.
     """
+    bad = _mirrored(V, F, uv)
     for n, even in ((_FIRST, False), (rounds, True)):
-        bad = _mirrored(V, F, uv)
         if not bad.any():
             break
         near = faces_around(F, bad, n // 2 + 2)
@@ -46,6 +46,7 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
         stays[F[~near].ravel()] = True
         uv = uv.copy()
         uv[kept] = _relaxed(V[kept], H, uv[kept], stays[kept], bad[near], n, even)
+        bad[near] = _mirrored(V, F[near], uv)
     return uv
 
 
@@ -53,9 +54,10 @@ def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
     """Mark faces (m,) and rings of faces around them, (m,) bool."""
     reached = np.zeros(int(F.max()) + 1, bool)
     a, b, c = np.ascontiguousarray(F.T)  # three looks at columns are quicker than any() along rows
+    before = np.zeros(len(F), bool)
     for _ in range(rings):
-        reached[F[faces].ravel()] = True
-        faces = reached[a] | reached[b] | reached[c]
+        reached[F[faces & ~before].ravel()] = True
+        before, faces = faces, reached[a] | reached[b] | reached[c]
     return faces
 
 
@@ -118,7 +120,7 @@ def _neighbours(V: Floats, F: Ints, stays: Bools, even: bool) -> tuple[Any, Any,
     rim = e.E[(e.n_faces == 1) & ~stays[e.E].all(1)]
     on_border = np.zeros(n, bool)
     on_border[rim.ravel()] = True
-    length = np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1)
+    length = edge_lengths(V, e.E)
     weight = np.ones(len(e.E)) if even else length.mean() / np.maximum(length, 1e-2 * length.mean())
     every = coo_matrix((weight, e.E.T), shape=(n, n))
     along = coo_matrix((np.ones(len(rim)), rim.T), shape=(n, n))

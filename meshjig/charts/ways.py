@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.measure import edge_lengths
 from meshjig.topology import edges
 
 __all__ = ["distances", "edge_graph", "shortest_way", "symmetric"]
@@ -16,7 +17,7 @@ Ints = NDArray[np.int64]
 def edge_graph(V: Floats, F: Ints) -> Any:
     """Give the edges as a symmetric sparse matrix of their lengths, (n, n)."""
     E = edges(F).E
-    return symmetric(E, np.linalg.norm(V[E[:, 0]] - V[E[:, 1]], axis=1), len(V))
+    return symmetric(E, edge_lengths(V, E), len(V))
 
 
 def symmetric(E: Ints, weight: Floats, n: int) -> Any:
