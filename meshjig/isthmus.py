@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from meshjig.measure import face_areas, sums
+from meshjig.narrow import could_be_narrow
 from meshjig.passages import parts_by_width
-from meshjig.topology import components, edges
+from meshjig.topology import Edges, components, edges
 from meshjig.types import Bools, CutMesh, Floats, Ints, Stitching
 
 __all__ = ["divide_at_isthmuses"]
@@ -38,25 +39,33 @@ def divide_at_isthmuses(
     facts = {"handed_over": 0, "parted": 0}
     piece, area = stitching.piece_of_region[cut.region], face_areas(cut.V, cut.F)
     least = smallest * float(area.sum()) / max(stitching.n_pieces, 1)
-    asked = np.ones(len(piece), bool)
-    for _ in range(ROUNDS if width > 0 else 0):
-        before = piece
-        piece = _without_isthmuses(cut, piece, asked, area, width, least, facts)
-        asked = np.isin(piece, piece[piece != before])
-        if not asked.any():
+    e = edges(cut.F)
+    narrow = could_be_narrow(cut.V, cut.F, e, piece, width) if width > 0 else np.zeros(0, bool)
+    for _ in range(ROUNDS):
+        if not narrow.any():
             break
+        before = piece
+        piece = _without_isthmuses(cut, e, piece, narrow[piece], area, width, least, facts)
+        narrow = np.bincount(piece, piece != before) > 0
     facts = stitching.facts | facts
     if (piece == stitching.piece_of_region[cut.region]).all():
         return cut, replace(stitching, facts=facts)
-    both = np.unique(np.stack([cut.region, piece], 1), axis=0, return_inverse=True)[1]
-    n, region = components(cut.F, np.repeat(both, 3) != both[edges(cut.F).twin // 3])
+    both = cut.region * np.int64(piece.max() + 1) + piece
+    n, region = components(cut.F, np.repeat(both, 3) != both[e.twin // 3])
     piece_of_region = np.zeros(n, np.int64)
     piece_of_region[region] = np.unique(piece, return_inverse=True)[1]
     return replace(cut, region=region), Stitching(piece_of_region, facts)
 
 
 def _without_isthmuses(
-    cut: CutMesh, piece: Ints, asked: Bools, area: Floats, width: float, least: float, facts: dict[str, int]
+    cut: CutMesh,
+    e: Edges,
+    piece: Ints,
+    asked: Bools,
+    area: Floats,
+    width: float,
+    least: float,
+    facts: dict[str, int],
 ) -> Ints:
     """Give the piece of every face, (m,), once what is beyond isthmuses of the pieces asked has a new one."""
     part = piece.copy()
@@ -68,7 +77,7 @@ def _without_isthmuses(
     main = by_size[np.append(np.diff(owner[by_size]) > 0, True)]  # the largest part of every piece
     size[main] = 0.0
     beyond = np.flatnonzero(size > SPECK * width**2)
-    border = _borders(cut, part, owner, beyond)
+    border = _borders(cut, e, part, owner, beyond)
     new = owner.copy()
     for k in beyond[np.argsort(-size[beyond], kind="stable")].tolist():
         longest, neighbour = max(((mm, -p) for p, mm in border[k].items()), default=(0.0, 0))
@@ -81,10 +90,9 @@ def _without_isthmuses(
     return new[part]
 
 
-def _borders(cut: CutMesh, part: Ints, owner: Ints, wanted: Ints) -> dict[int, dict[int, float]]:
+def _borders(cut: CutMesh, e: Edges, part: Ints, owner: Ints, wanted: Ints) -> dict[int, dict[int, float]]:
     """Give the neighbours of some parts, other than their piece, and the length of the border, mm."""
-    e = edges(cut.F)
-    h = np.flatnonzero(np.isin(part, wanted)[np.arange(len(e.twin)) // 3])
+    h = np.flatnonzero(np.repeat(np.isin(part, wanted), 3))
     here, there = part[h // 3], owner[part[e.twin[h] // 3]]
     kept = owner[here] != there
     ends = cut.V[e.E[e.edge_of_halfedge[h[kept]]]]

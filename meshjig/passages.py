@@ -1,21 +1,17 @@
 """Which parts of pieces hang together by ways of some width on the surface."""
 
 from itertools import product
-from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from meshjig.measure import vertex_normals
-from meshjig.topology import Edges, edges
+from meshjig.rim import ALONG, Rim, between, distances_along, rim_of
+from meshjig.topology import compact, edges
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["parts_by_width"]
 
-FINE = 0.1  # widths between points of a border
-SEEN = 2.0  # widths up to which distances from borders are known
-ALONG = np.linspace(0, 1, 9)  # of an edge, where its distance from the borders is looked at
 THROUGH = np.linspace(0, 1, 5)[1:-1]  # of the way through a face
 NEARLY = 0.95  # of half the width that must be free in there
 
@@ -41,12 +37,13 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     Of every edge the stretches that are far enough from the borders are found. A way leads along these, and
     straight through faces from one to another.
     """
-    e = edges(F)
+    F, kept = compact(F)
+    V, e = V[kept], edges(F)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     inner = h[piece[h // 3] == piece[e.twin[h] // 3]]
     ends = e.E[e.edge_of_halfedge[inner]]
-    rim = _rim(V, F, e, piece, width)
-    far = _distances(V, ends, rim, width)
+    rim = rim_of(V, F, e, piece, width)
+    far = distances_along(V, ends, rim, width)
     stretch, n = _stretches(far > width / 2)
     pairs = np.concatenate(
         [np.stack([stretch[:, k], n + ends[:, k]], 1)[stretch[:, k] >= 0] for k in (0, -1)]
@@ -58,58 +55,6 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     pairs = np.concatenate([pairs, _through_faces(V, sides, ends, stretch, label, rim, width)])
     core = _of_widest_side(sides, far, stretch, _components(n + len(V), pairs))
     return _filled(V, F, np.stack([inner // 3, e.twin[inner] // 3], 1), core)
-
-
-class _Rim(NamedTuple):
-    """Points along the borders of all pieces, to be near to or not."""
-
-    N: Floats  # (n, 3), normals of the mesh's vertices
-    tree: Any
-    normals: Floats  # (k, 3), of the points
-    reach: float  # mm
-
-    def distance(self, P: Floats, N: Floats) -> Floats:
-        """Give the distance of points (k, 3) with normals (k, 3); the reach, where it is more.
-
-        A border on the other side of a thin sheet is not near.
-        """
-        far, at = self.tree.query(P, distance_upper_bound=self.reach)
-        found = np.flatnonzero(np.isfinite(far))
-        behind = np.einsum("ij,ij->i", N[found], self.normals[at[found]]) < 0
-        far[found[behind]] = self.reach
-        return np.minimum(far, self.reach)
-
-
-def _on_border(e: Edges, piece: Ints) -> Bools:
-    """Tell which half-edges have another piece, or nothing, on their other side."""
-    return (piece[e.twin // 3] != np.repeat(piece, 3)) | (e.twin == np.arange(len(e.twin)))
-
-
-def _rim(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> _Rim:
-    from scipy.spatial import cKDTree
-
-    a, b = e.E[np.unique(e.edge_of_halfedge[_on_border(e, piece)])].T
-    n = np.ceil(np.linalg.norm(V[a] - V[b], axis=1) / (FINE * width)).astype(np.int64) + 1
-    row = np.repeat(np.arange(len(n)), n)
-    t = (np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)) / np.maximum(n[row] - 1, 1)
-    N = vertex_normals(V, F)
-    points, normals = (_between(X, np.stack([a[row], b[row]], 1), t) for X in (V, N))
-    return _Rim(N, cKDTree(points), normals, SEEN * width)
-
-
-def _distances(V: Floats, ends: Ints, rim: _Rim, width: float) -> Floats:
-    """Give the distance of edges (k, 2) from the borders all along them, (k, 9), mm.
-
-    An edge so short or so far from the borders that it can't come near has those of its ends.
-    """
-    at_end = rim.distance(V, rim.N)[ends]
-    length = np.linalg.norm(V[ends[:, 0]] - V[ends[:, 1]], axis=1)
-    far = at_end[:, :1] + ALONG * (at_end[:, 1:] - at_end[:, :1])
-    doubt = np.flatnonzero(at_end.sum(1) < length + width)
-    for k, t in enumerate(ALONG[1:-1].tolist(), 1):
-        at = np.full(len(doubt), t)
-        far[doubt, k] = rim.distance(_between(V, ends[doubt], at), _between(rim.N, ends[doubt], at))
-    return far
 
 
 def _stretches(wide: Bools) -> tuple[Ints, int]:
@@ -129,9 +74,10 @@ def _of_widest_side(sides: Ints, far: Floats, stretch: Ints, label: Ints) -> Int
 
 
 def _through_faces(
-    V: Floats, row: Ints, ends: Ints, stretch: Ints, label: Ints, rim: _Rim, width: float
+    V: Floats, row: Ints, ends: Ints, stretch: Ints, label: Ints, rim: Rim, width: float
 ) -> Ints:
     """List pairs (k, 2) of stretches in different parts between which a straight way leads through a face."""
+    row = row[_torn(row, stretch, label)]
     first = np.array([_places(stretch, last=False), _places(stretch, last=True)])
     found: list[Ints] = [np.zeros((0, 2), np.int64)]
     for k, one, other in product(range(3), first, first):
@@ -143,10 +89,18 @@ def _through_faces(
             runs = np.stack([stretch[a, p], stretch[b, q]], 1)
             tried = np.flatnonzero((runs >= 0).all(1) & (label[runs[:, 0]] != label[runs[:, 1]]))
             a, b, p, q, runs = a[tried], b[tried], p[tried], q[tried], runs[tried]
-            leads = _free_between(V, rim, (ends[a], ALONG[p]), (ends[b], ALONG[q]), NEARLY * width / 2)
+            leads = _freebetween(V, rim, (ends[a], ALONG[p]), (ends[b], ALONG[q]), NEARLY * width / 2)
             found.append(runs[leads])
             a, b = a[~leads], b[~leads]
     return np.concatenate(found)
+
+
+def _torn(sides: Ints, stretch: Ints, label: Ints) -> Bools:
+    """Tell which faces (m, 3), by their edges, have stretches in different parts."""
+    found, part, none = stretch >= 0, label[stretch], len(label)
+    low = np.append(np.where(found, part, none).min(1, initial=none), none)
+    high = np.append(np.where(found, part, -1).max(1, initial=-1), -1)
+    return np.asarray(low[sides].min(1) < high[sides].max(1))
 
 
 def _places(stretch: Ints, last: bool) -> Ints:
@@ -159,11 +113,11 @@ def _places(stretch: Ints, last: bool) -> Ints:
     return np.stack([(begin + end) // 2, begin, end], 1)
 
 
-def _free_between(
-    V: Floats, rim: _Rim, one: tuple[Ints, Floats], other: tuple[Ints, Floats], least: float
+def _freebetween(
+    V: Floats, rim: Rim, one: tuple[Ints, Floats], other: tuple[Ints, Floats], least: float
 ) -> Bools:
     """Tell between which points, each given as ends of an edge and place on it, all is far from borders."""
-    (P, N), (Q, M) = (tuple(_between(X, *place) for X in (V, rim.N)) for place in (one, other))
+    (P, N), (Q, M) = (tuple(between(X, *place) for X in (V, rim.N)) for place in (one, other))
     free = np.ones(len(P), bool)
     for t in THROUGH.tolist():
         left = np.flatnonzero(free)
@@ -192,10 +146,3 @@ def _filled(V: Floats, F: Ints, beside: Ints, core: Ints) -> Ints:
 def _components(n: int, pairs: Ints) -> Ints:
     graph = coo_matrix((np.ones(len(pairs), np.int8), tuple(pairs.T)), shape=(n, n))
     return connected_components(graph, directed=False)[1].astype(np.int64)
-
-
-def _between(X: Floats, ends: Ints, t: Floats) -> Floats:
-    """Give the values between those of two rows (k, 2), 0 to 1 on the way."""
-    a, b = X[ends[:, 0]], X[ends[:, 1]]
-    mixed: Floats = a + t[:, None] * (b - a)
-    return mixed

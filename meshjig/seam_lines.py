@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from meshjig.cells.discs import DISC, shapes
@@ -10,7 +12,7 @@ from meshjig.check.congruent import borders
 from meshjig.layout import Layout
 from meshjig.recut import recut
 from meshjig.topology import compact, edge_keys, edges, next_halfedge
-from meshjig.types import CutMesh, Ints
+from meshjig.types import Bools, CutMesh, Ints
 
 __all__ = ["even_seams"]
 
@@ -18,7 +20,7 @@ TRIES = 3
 SHORTEST = 4  # edges: there is nothing to even out in less
 
 
-def even_seams(layout: Layout) -> Layout:
+def even_seams(layout: Layout) -> tuple[Layout, Bools]:
     """Draw the borders of pieces along seams anew, smoothly; a border that would break a piece stays.
 
     Parameters
@@ -27,53 +29,62 @@ def even_seams(layout: Layout) -> Layout:
 
     Returns
     -------
-    Layout, of the same pieces
+    layout : Layout, of the same pieces
+    discs : (p,) bool, which pieces are discs
     """
-    n = layout.stitching.n_pieces
-    before = shapes(layout.cut.F, layout.piece_of_face, n, edges(layout.cut.F)) == DISC
-    lines = [line for line in _seam_lines(layout) if before[line.left] and before[line.right]]
+    cut, n = layout.cut, layout.stitching.n_pieces
+    discs = shapes(cut.F, layout.piece_of_face, n, edges(cut.F)) == DISC
+    lines = [line for line in _seam_lines(layout) if discs[line.left] and discs[line.right]]
     for _ in range(TRIES):
         if not lines:
             break
-        made = _evened(layout, lines)
-        good = shapes(made.cut.F, made.piece_of_face, n, edges(made.cut.F)) == DISC
-        if (good | ~before).all():
-            return made
+        wanted = np.unique([(line.left, line.right) for line in lines])
+        chosen = np.flatnonzero(np.isin(layout.piece_of_face, wanted))
+        made = _evened(layout, chosen, lines)
+        good = shapes(made.F, made.cell, n, edges(made.F)) == DISC
+        if good[wanted].all():
+            return _taken_in(layout, chosen, made), discs
         lines = [line for line in lines if good[line.left] and good[line.right]]
-    return layout
+    return layout, discs
 
 
 def _seam_lines(layout: Layout) -> list[Line]:
     """List the stretches along which two pieces meet on a seam."""
-    cut = layout.cut
-    corner = cut.F.ravel()
-    ends = np.stack([corner, corner[next_halfedge(np.arange(len(corner)))]], 1)
+    cut, corner = layout.cut, layout.cut.F.ravel()
+    of_piece = borders(cut, layout.piece_of_face)
+    once = [border for found in of_piece for border in found if border.piece < border.neighbour]
+    vertices = [
+        np.append(corner[border.halfedges], corner[next_halfedge(border.halfedges[-1:])]) for border in once
+    ]
+    ends = np.concatenate([np.zeros((0, 2), np.int64), *(np.stack([v[:-1], v[1:]], 1) for v in vertices)])
     on_seam = ~np.isin(edge_keys(ends, len(cut.V)), edge_keys(cut.cuts, len(cut.V)))
     lines = []
-    for of_piece in borders(cut, layout.piece_of_face):
-        for border in of_piece:
-            if border.piece >= border.neighbour:
-                continue
-            h = border.halfedges
-            for run in np.split(h, np.flatnonzero(np.diff(on_seam[h])) + 1):
-                vertex = np.append(ends[run, 0], ends[run[-1], 1])
-                if on_seam[run[0]] and len(run) >= SHORTEST and vertex[0] != vertex[-1]:
-                    lines.append(Line(vertex, border.piece, border.neighbour))
+    at = 0
+    for border, vertex in zip(once, vertices, strict=True):
+        seam = on_seam[at : at + len(vertex) - 1]
+        at += len(seam)
+        change = np.flatnonzero(np.diff(seam)) + 1
+        for begin, end in pairwise([0, *change.tolist(), len(seam)]):
+            run = vertex[begin : end + 1]
+            if seam[begin] and end - begin >= SHORTEST and run[0] != run[-1]:
+                lines.append(Line(run, border.piece, border.neighbour))
     return lines
 
 
-def _evened(layout: Layout, lines: list[Line]) -> Layout:
-    cut, piece = layout.cut, layout.piece_of_face
-    wanted = np.zeros(layout.stitching.n_pieces, bool)
-    wanted[[p for line in lines for p in (line.left, line.right)]] = True
-    chosen = np.flatnonzero(wanted[piece])
+def _evened(layout: Layout, chosen: Ints, lines: list[Line]) -> Evened:
+    """Even out lines in some faces of the cut mesh."""
+    cut = layout.cut
     F, kept = compact(cut.F[chosen])
     number = np.full(len(cut.V), -1)
     number[kept] = np.arange(len(kept))
-    made = even_borders(
-        cut.V[kept], F, piece[chosen], [line._replace(vertex=number[line.vertex]) for line in lines]
-    )
-    cuts = _new_borders(F, piece[chosen], made)
+    moved = [line._replace(vertex=number[line.vertex]) for line in lines]
+    return even_borders(cut.V[kept], F, layout.piece_of_face[chosen], moved)
+
+
+def _taken_in(layout: Layout, chosen: Ints, made: Evened) -> Layout:
+    """Put evened faces in the place of those that they were made from."""
+    F, kept = compact(layout.cut.F[chosen])
+    cuts = _new_borders(F, layout.piece_of_face[chosen], made)
     second = CutMesh(
         V=made.V,
         F=made.F,

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from meshjig.cells import CellMesh, cell_atlas, knob_outlines
-from meshjig.cells.discs import DISC, shapes
 from meshjig.check.interlock import Interlock, interlock
 from meshjig.cut import Further, fold, overlay
 from meshjig.layout import Layout
@@ -17,8 +16,8 @@ from meshjig.options import Options
 from meshjig.recut import recut
 from meshjig.seam_lines import even_seams
 from meshjig.stitch import region_graph
-from meshjig.topology import compact, edges
-from meshjig.types import Floats, Ints, Knobs, Mesh
+from meshjig.topology import compact
+from meshjig.types import Bools, Floats, Ints, Knobs, Mesh
 
 __all__ = ["knobs_over_seams"]
 
@@ -53,8 +52,8 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
     locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
     size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
     pairs = _plain_over_seams(layout, locks, LONG * size)
-    layout = even_seams(layout)
-    piece_of_cell, cells, chosen, kept = _as_cells(layout, pairs)
+    layout, discs = even_seams(layout)
+    piece_of_cell, cells, chosen, kept = _as_cells(layout, discs, pairs)
     number = np.full(layout.stitching.n_pieces, -1)
     number[piece_of_cell] = np.arange(len(piece_of_cell))
     between = number[pairs]
@@ -87,17 +86,17 @@ def _plain_over_seams(layout: Layout, locks: Interlock, least: float) -> Ints:
     Where tiles have knobs, that is any border without one; where their shapes hold each other, one that
     is mostly seam.
     """
-    n = layout.stitching.n_pieces
-    graph = region_graph(replace(layout.cut, region=layout.piece_of_face))
-    seam = dict(zip((graph.pairs @ [n, 1])[graph.seam].tolist(), graph.length[graph.seam], strict=True))
-    on_seam = np.array([seam.get(key, 0.0) for key in (locks.pairs @ [n, 1]).tolist()])
     plain = (locks.knobs_of_pair == 0) & (locks.length > least)
     if not len(layout.knobs.neck):
+        n = layout.stitching.n_pieces
+        graph = region_graph(replace(layout.cut, region=layout.piece_of_face))
+        seam = dict(zip((graph.pairs @ [n, 1])[graph.seam].tolist(), graph.length[graph.seam], strict=True))
+        on_seam = np.array([seam.get(key, 0.0) for key in (locks.pairs @ [n, 1]).tolist()])
         plain &= on_seam > MOSTLY * locks.length
     return locks.pairs[plain]
 
 
-def _as_cells(layout: Layout, pairs: Ints) -> tuple[Ints, CellMesh, Ints, Ints]:
+def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> tuple[Ints, CellMesh, Ints, Ints]:
     """Take the pieces of some pairs for cells; those that are no discs are left out.
 
     Returns
@@ -108,9 +107,8 @@ def _as_cells(layout: Layout, pairs: Ints) -> tuple[Ints, CellMesh, Ints, Ints]:
     kept : (v,) int64, its vertices there
     """
     cut, piece = layout.cut, layout.piece_of_face
-    shape = shapes(cut.F, piece, layout.stitching.n_pieces, edges(cut.F))
-    wanted = np.zeros(len(shape), bool)
-    wanted[pairs[(shape[pairs] == DISC).all(1)]] = True
+    wanted = np.zeros(len(discs), bool)
+    wanted[pairs[discs[pairs].all(1)]] = True
     chosen = np.flatnonzero(wanted[piece])
     F, kept = compact(cut.F[chosen])
     cell = (np.cumsum(wanted) - 1)[piece[chosen]]

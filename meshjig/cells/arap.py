@@ -52,8 +52,8 @@ def arap(p: Patches, uv: Floats, iterations: int = 10) -> Floats:
     for _ in range(iterations):
         turn = (weight * (z[p.F] - z[p.F[:, [1, 2, 0]]]) * side.conj()).sum(1)
         turn /= np.maximum(np.abs(turn), 1e-300)
-        right = ends @ (turn[:, None] * side).ravel()
-        out = solver.solve(np.stack([right.real, right.imag], 1))
+        turned = (turn[:, None] * side).ravel()
+        out = solver.solve(ends @ turned.view(np.float64).reshape(-1, 2))
         z = out[:, 0] + 1j * out[:, 1]
     return np.stack([z.real, z.imag], 1)
 

@@ -30,18 +30,29 @@ def shapes(F: Ints, cell: Ints, n: int, e: Edges) -> Ints:
 
     twin = e.twin
     h = np.arange(len(twin))
-    other = twin // 3
-    inner = (twin != h) & (cell[h // 3] == cell[other])
-    a, b = h[inner & (twin > h)] // 3, other[inner & (twin > h)]
-    graph = coo_matrix((np.ones(len(a), np.int8), (a, b)), shape=(len(F), len(F)))
+    of, corner = np.repeat(cell, 3), F.ravel()
+    on_rim = (twin == h) | (of != of[twin])
+    a = np.flatnonzero(~on_rim & (twin > h))
+    graph = coo_matrix((np.ones(len(a), np.int8), (a // 3, twin[a] // 3)), shape=(len(F), len(F)))
     k, part = connected_components(graph, directed=False)
     of_part = np.empty(k, np.int64)
     of_part[part] = cell
-    corners = np.unique(F.ravel() * np.int64(n) + np.repeat(cell, 3)) % n
-    n_edges = np.bincount(cell[h[~inner] // 3], minlength=n) + np.bincount(cell[a], minlength=n)
-    euler = np.bincount(corners, minlength=n) - n_edges + np.bincount(cell, minlength=n)
-    start = F.ravel()[~inner] * np.int64(n) + cell[h[~inner] // 3]
-    found, count = np.unique(start, return_counts=True)
-    pinched = np.bincount(found[count > 1] % n, minlength=n) > 0
+    home = np.full(int(F.max(initial=-1)) + 1, -1)
+    home[corner] = of
+    home[e.E[e.edge_of_halfedge[on_rim]]] = -1  # such a corner may be in several cells
+    at_rim = home[corner] < 0
+    shared = _distinct(corner[at_rim] * np.int64(n) + of[at_rim])[0]
+    n_corners = np.bincount(home[home >= 0], minlength=n) + np.bincount(shared % n, minlength=n)
+    n_edges = np.bincount(of[on_rim], minlength=n) + np.bincount(of[a], minlength=n)
+    euler = n_corners - n_edges + np.bincount(cell, minlength=n)
+    start, count = _distinct(corner[on_rim] * np.int64(n) + of[on_rim])
+    pinched = np.bincount(start[count > 1] % n, minlength=n) > 0
     sound = (np.bincount(of_part, minlength=n) == 1) & ~pinched
     return np.where(sound, euler, OTHER)
+
+
+def _distinct(keys: Ints) -> tuple[Ints, Ints]:
+    """Give the values among keys, in order, and how often each is there."""
+    keys = np.sort(keys)
+    first = np.flatnonzero(np.diff(keys, prepend=-1))
+    return keys[first], np.diff(first, append=len(keys))

@@ -2,17 +2,23 @@
 
 import numpy as np
 
+from meshjig.cells.arap import arap
 from meshjig.cells.planar import Patches, folded, scaled, simple, subset
 from meshjig.cells.tutte import tutte
+from meshjig.cells.unfold import unfolded
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["rescued"]
 
+_RIGID = 60  # rounds from a disc, far from isometry, to near it
 _ITERATIONS = (25, 5, 1)  # fewer where the border of a cell would grow into itself
 
 
 def rescued(p: Patches, chosen: Bools) -> tuple[Ints, Floats]:
     """Flatten some of the cells, near to isometry and without folds.
+
+    All start from a round disc, from which rigid flattening mostly comes out without folds; where it does
+    not, a way is taken on which no face can ever be mirrored.
 
     Parameters
     ----------
@@ -30,9 +36,10 @@ def rescued(p: Patches, chosen: Bools) -> tuple[Ints, Floats]:
     """
     q, kept = subset(p, chosen)
     start = tutte(q)
-    uv = start.copy()
-    for cell in range(q.n):
+    uv = scaled(q, unfolded(q, arap(q, start, _RIGID)))
+    for cell in np.flatnonzero(folded(q, uv) | ~simple(q, uv)).tolist():
         one, inside = subset(q, np.arange(q.n) == cell)
+        uv[inside] = start[inside]
         for iterations in _ITERATIONS:
             found = scaled(one, _slim(one, start[inside], iterations))
             if not folded(one, found)[0] and simple(one, found)[0]:

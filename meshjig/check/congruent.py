@@ -1,5 +1,6 @@
 """Which borders and which pieces could be taken for one another, as rigid motions bring them together."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -37,15 +38,15 @@ def borders(cut: CutMesh, piece_of_face: Ints) -> list[list[Border]]:
     corner, n = cut.F.ravel(), len(cut.V)
     twin = edges(cut.F).twin
     h = np.arange(len(twin))
-    piece = piece_of_face[h // 3]
+    piece = np.repeat(piece_of_face, 3)
     beyond = np.where(twin == h, -1, piece[twin])
     rim = np.flatnonzero(piece != beyond)
-    start = dict(zip((piece[rim] * n + corner[rim]).tolist(), rim.tolist(), strict=True))
-    end = (piece[rim] * n + corner[next_halfedge(rim)]).tolist()
-    following = {a: start[key] for a, key in zip(rim.tolist(), end, strict=True)}
+    start, end = (piece[rim] * n + corner[k] for k in (rim, next_halfedge(rim)))
+    order = np.argsort(start, kind="stable")
+    following = order[np.searchsorted(start[order], end, side="right") - 1]
     found: list[list[Border]] = [[] for _ in range(int(piece_of_face.max(initial=-1)) + 1)]
-    while following:
-        loop = _loop(following)
+    for row in _loops(following.tolist()):
+        loop = rim[row]
         across = beyond[loop]
         change = np.flatnonzero(across != np.roll(across, 1))
         loop = np.roll(loop, -int(change[0])) if len(change) else loop
@@ -56,14 +57,17 @@ def borders(cut: CutMesh, piece_of_face: Ints) -> list[list[Border]]:
     return found
 
 
-def _loop(following: dict[int, int]) -> Ints:
-    """Take one loop out of a successor map; a pinched rim may end in a loop taken before."""
-    at = next(iter(following))
-    loop = []
-    while at in following:
-        loop.append(at)
-        at = following.pop(at)
-    return np.array(loop, np.int64)
+def _loops(following: list[int]) -> Iterator[list[int]]:
+    """Give the loops of a successor map one by one; a pinched rim may end in a loop given before."""
+    left = [True] * len(following)
+    for first in range(len(following)):
+        at, loop = first, []
+        while left[at]:
+            left[at] = False
+            loop.append(at)
+            at = following[at]
+        if loop:
+            yield loop
 
 
 def congruent_borders(

@@ -1,6 +1,7 @@
 """How well neighbouring pieces hold each other: knobs, necks, heads and undercuts, measured in space."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -28,7 +29,13 @@ class Interlock:
 
     border: Floats  # (e, 2, 3), mm, the straight parts of all borders
     pair_of_border: Ints  # (e,), the pair that each divides, as a row of pairs
-    undercut: Floats  # (b,), mm, by which the two hold on to each other whichever way they are pulled
+    cut: CutMesh
+    piece_of_face: Ints  # (m,)
+
+    @cached_property
+    def undercut(self) -> Floats:
+        """Give by how much two neighbours hold on to each other whichever way they are pulled, (b,), mm."""
+        return undercuts(self.cut, self.piece_of_face, self.pairs)
 
     def locked(self, clearance: float) -> Bools:
         """Tell which pairs interlock, (b,): by a whole knob, or by an undercut that outdoes the gap."""
@@ -104,7 +111,8 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
         neck,
         cut.V[ends],
         pair_of_edge,
-        undercuts(cut, piece_of_face, pairs),
+        cut,
+        piece_of_face,
     )
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.measure import barycentric, interpolate
-from meshjig.topology import edge_keys
+from meshjig.topology import edge_keys, next_halfedge
 from meshjig.types import Atlas, CutMesh, Floats, Ints, Mesh, Outlines
 
 __all__ = ["Further", "cut_further"]
@@ -130,11 +130,15 @@ def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, 
 
 def _face_left_of(F: Ints, cuts: Ints, n: int) -> Ints:
     """Give the face on the left of every edge (c, 2), which has one on either side; (c,)."""
-    start, end = F.ravel(), F[:, [1, 2, 0]].ravel()
+    near = np.zeros(n, bool)
+    near[cuts] = True
+    at_corner = near[F]
+    h = np.flatnonzero(at_corner & at_corner[:, [1, 2, 0]])
+    start, end = F.ravel()[h], F.ravel()[next_halfedge(h)]
     key = start * np.int64(n) + end
     order = np.argsort(key)
     at = np.searchsorted(key[order], cuts[:, 0] * np.int64(n) + cuts[:, 1])
-    left: Ints = order[np.minimum(at, len(order) - 1)] // 3
+    left: Ints = h[order[np.minimum(at, len(order) - 1)]] // 3
     return left
 
 
