@@ -58,9 +58,10 @@ def edges(F: Ints) -> Edges:
     """
     a, b = F.ravel(), F[:, [1, 2, 0]].ravel()
     n = int(F.max(initial=0)) + 1
-    key = np.minimum(a, b) * np.int64(n) + np.maximum(a, b)
-    order = _stable_order(key)
-    ordered = key[order]
+    key = np.minimum(a, b, dtype=np.int64)
+    key *= n
+    key += np.maximum(a, b)
+    order, ordered = _stably_ordered(key)
     new = np.ones(len(key), bool)
     new[1:] = ordered[1:] != ordered[:-1]
     edge_of_halfedge = np.empty(len(key), np.int64)
@@ -74,15 +75,21 @@ def edges(F: Ints) -> Edges:
     return Edges(np.stack([unique // n, unique % n], 1), edge_of_halfedge, twin, count)
 
 
-def _stable_order(key: Ints) -> Ints:
-    """Give the order that sorts keys >= 0, equal ones as they come.
+def _stably_ordered(key: Ints) -> tuple[Ints, Ints]:
+    """Give the order that sorts keys >= 0, equal ones as they come, and the sorted keys, in place.
 
     Keys and places are sorted as one number where that fits: five times as fast as a stable argsort.
     """
     bits = len(key).bit_length()
     if int(key.max(initial=0)).bit_length() + bits > 62:
-        return np.argsort(key, kind="stable")
-    return np.sort((key << bits) | np.arange(len(key))) & ((1 << bits) - 1)
+        order = np.argsort(key, kind="stable")
+        return order, key[order]
+    key <<= bits
+    key |= np.arange(len(key))
+    key.sort()
+    order = key & ((1 << bits) - 1)
+    key >>= bits
+    return order, key
 
 
 def border_halfedges(F: Ints) -> Ints:
