@@ -54,7 +54,7 @@ def proxy(V: Floats, F: Ints, n_faces: int = 5000, e: Edges | None = None) -> tu
         meshes.apply_coord_taubin_smoothing(stepsmoothnum=10)
     meshes.meshing_decimation_quadric_edge_collapse(
         targetfacenum=n_faces,
-        preserveboundary=False,
+        preserveboundary=False,  # unsaid, it would be as in the simplification before
         preservetopology=True,
         preservenormal=True,
         qualitythr=0.5,

@@ -3,8 +3,9 @@ import numpy as np
 import pytest
 
 from meshjig.charts.proxy import proxy
+from meshjig.scan.resolution import decimate
 from meshjig.topology import components, edges
-from tests.meshes import cylinder, genus2, noisy, open_cup, sphere, torus
+from tests.meshes import cylinder, genus2, half_sphere, noisy, open_cup, sphere, torus
 
 
 @pytest.mark.parametrize("maker", [sphere, torus, genus2, open_cup, cylinder])
@@ -29,3 +30,11 @@ def test_noise_is_smoothed_away():
     V, F = noisy(sphere(40000), 0.5)
     W, _ = proxy(V, F, 2000)
     assert np.linalg.norm(W, axis=1).std() < 0.75 * np.linalg.norm(V, axis=1).std()
+
+
+def test_what_was_simplified_before_makes_no_difference():
+    V, F = half_sphere(12000)
+    before = proxy(V, F, 1000)
+    decimate(*open_cup(12000), 1000)
+    for expected, found in zip(before, proxy(V, F, 1000), strict=True):
+        np.testing.assert_array_equal(found, expected)
