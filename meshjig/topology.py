@@ -91,20 +91,21 @@ def border_halfedges(F: Ints) -> Ints:
     return np.flatnonzero(twin == np.arange(len(twin)))
 
 
-def components(F: Ints, wall: Bools | None = None) -> tuple[int, Ints]:
+def components(F: Ints, wall: Bools | None = None, e: Edges | None = None) -> tuple[int, Ints]:
     """Label faces that hang together over shared edges.
 
     Parameters
     ----------
     F : (m, 3) int64
     wall : (3 m,) bool, half-edges that don't connect
+    e : Edges, of F, where they are known
 
     Returns
     -------
     n : int
     component_of_face : (m,) int64
     """
-    twin = edges(F).twin
+    twin = (edges(F) if e is None else e).twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
     if wall is not None:
         h = h[~(wall[h] | wall[twin[h]])]
