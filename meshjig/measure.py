@@ -18,6 +18,8 @@ __all__ = [
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_BLOCK = 8192  # faces: what is worked on stays in the cache
+
 
 def unit(x: Floats) -> Floats:
     """Scale rows to length 1; zero rows stay zero."""
@@ -26,10 +28,12 @@ def unit(x: Floats) -> Floats:
 
 def area_vectors(V: Floats, F: Ints) -> Floats:
     """Give each face's normal scaled to twice its area, (m, 3)."""
-    a = V[F[:, 0]]
-    (d, e, f), (u, v, w) = (V[F[:, 1]] - a).T, (V[F[:, 2]] - a).T
     N = np.empty((len(F), 3))
-    N[:, 0], N[:, 1], N[:, 2] = e * w - f * v, f * u - d * w, d * v - e * u
+    for k in range(0, len(F), _BLOCK):
+        G, n = F[k : k + _BLOCK], N[k : k + _BLOCK]
+        a = V[G[:, 0]]
+        (d, e, f), (u, v, w) = (V[G[:, 1]] - a).T, (V[G[:, 2]] - a).T
+        n[:, 0], n[:, 1], n[:, 2] = e * w - f * v, f * u - d * w, d * v - e * u
     return N
 
 
