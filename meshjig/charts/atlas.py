@@ -5,11 +5,13 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.charts.auto import GATE, chart_component
 from meshjig.charts.chart import Chart, Charting
 from meshjig.charts.layout import lay_out
 from meshjig.charts.mapped import MappedAtlas
 from meshjig.charts.quality import quality, seam_over_sqrt_area
+from meshjig.charts.segment import WORTH_A_CHILD, get_ready
 from meshjig.charts.steady import steady
 from meshjig.charts.unwrap import chart_options
 from meshjig.errors import ChartError, OptionError
@@ -84,6 +86,8 @@ def build_atlas(
         brought = own_uv(mesh, source, np.eye(4) if to_source is None else to_source)
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
     else:
+        searches = method in ("auto", "lscm", "arap", "slim") and len(mesh.F) >= WORTH_A_CHILD
+        ready = Background(get_ready) if searches else None
         V = steady(mesh.V, mesh.F, seed, e)
         n, component = _components(e.twin)
         for c in range(n):
@@ -91,7 +95,14 @@ def build_atlas(
             F, kept = compact(mesh.F[faces])
             known = e if len(faces) == len(mesh.F) and len(kept) == len(V) else None
             made = chart_component(
-                V[kept], F, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options, e=known
+                V[kept],
+                F,
+                method,
+                seed=seed,
+                zipped=zipped,
+                xatlas_options=xatlas_options,
+                e=known,
+                ready=ready,
             )
             parts.append((faces, made))
     atlas = lay_out(mesh, [_shifted(chart, faces) for faces, made in parts for chart in made.charts], margin)

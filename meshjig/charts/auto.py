@@ -4,6 +4,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting
 from meshjig.charts.denoise import smoothed
@@ -40,6 +41,7 @@ def chart_component(
     zipped: bool = True,
     xatlas_options: dict[str, Any] | None = None,
     e: Edges | None = None,
+    ready: Background | None = None,
 ) -> Charting:
     """Cut one component into charts.
 
@@ -56,6 +58,7 @@ def chart_component(
     zipped : bool, glue the charts of our own segmentation
     xatlas_options : dict, fields of xatlas.ChartOptions
     e : Edges, of F, where the caller has them
+    ready : Background, a child that was told to get ready for the search
 
     Returns
     -------
@@ -75,7 +78,7 @@ def chart_component(
         W, G = coarsened(V, F, _MIDDLE, e)
         if len(G) < len(F):
             middle = smoothed(W, G, _PASSES), G
-            return _of_heavy(V, F, e, middle, method, seed, zipped, xatlas_options)
+            return _of_heavy(V, F, e, middle, method, seed, zipped, xatlas_options, ready)
     light = proxy(V, F, e=e)
     if method == "single":
         return single_chart(V, F, light, seed)
@@ -86,6 +89,8 @@ def chart_component(
     if rings is not None and _seams(V, F, rings) <= _FEW_SEAMS:
         return rings
     flattening = "slim" if method == "auto" else method
+    if ready is not None:
+        ready.result()
     label = segment(*light, seed=seed, conformal=flattening == "lscm")
     own = own_charts(V, F, light, label, flattening, seed=seed, zipped=zip_charts if zipped else None, e=e)
     if rings is not None and _seams(V, F, rings) <= _seams(V, F, own):
@@ -102,9 +107,12 @@ def _of_heavy(
     seed: int,
     zipped: bool,
     xatlas_options: dict[str, Any] | None,
+    ready: Background | None,
 ) -> Charting:
     """Cut a coarser mesh into charts, and carry them over."""
-    found = chart_component(*middle, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options)
+    found = chart_component(
+        *middle, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options, ready=ready
+    )
     note = found.note
     if found.leaf is None:  # rings, which follow heights of the mesh itself
         rings, note = _good_rings(V, F, middle, seed)

@@ -4,6 +4,7 @@ import numpy as np
 
 from meshjig.charts.chart import Chart
 from meshjig.charts.cuts import chains, cut_faces
+from meshjig.charts.fair import within_limits
 from meshjig.charts.flatten import flat_share, is_unflipped, ring_is_simple, unit_stretch
 from meshjig.charts.nearest import Nearest, nearest
 from meshjig.charts.part import part
@@ -12,6 +13,7 @@ from meshjig.charts.settle import settle
 from meshjig.charts.slim import slim
 from meshjig.charts.strays import without_strays
 from meshjig.charts.untangle import untangle
+from meshjig.measure import face_areas, singular_values
 from meshjig.topology import Edges, compact, edges
 from meshjig.types import Bools, Floats, Ints
 
@@ -81,13 +83,15 @@ class Carrier:
         border = self._border(cut, faces, corners)
         if border is None:
             return None
-        X = np.empty((int(corners.max()) + 1, 3))
-        X[corners] = self._V[self._F[faces]]
+        origin = np.empty(int(corners.max()) + 1, np.int64)
+        origin[corners] = self._F[faces]
+        X = self._V[origin]
         guess = without_strays(X, corners, self._first_guess(chart, faces, corners))
-        uv = untangle(X, corners, guess)
+        stretch = singular_values(X, corners, guess)
+        wanted = within_limits(face_areas(X, corners), stretch)
+        uv = untangle(X, corners, guess, stretch=stretch)
         if self._settles:
             uv = settle(X, corners, uv, border=border)
-        wanted = flat_share(X, corners, guess)
         if (
             len(faces) <= _HEAVY
             and is_unflipped(uv, corners)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from meshjig.charts.flatten import FLAT_LIMITS
-from meshjig.measure import face_areas
-from meshjig.types import Floats, Ints
+from meshjig.measure import face_areas, face_sides
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["gate_share"]
 
@@ -30,13 +30,11 @@ def gate_share(V: Floats, F: Ints, uv: Floats, F_uv: Ints, at: float) -> float:
     """
     plane, area = face_areas(uv, F_uv), face_areas(V, F)
     good = plane > 1e-12 * plane.max(initial=0)
-    metric = np.zeros((len(F), 3))
-    metric[good] = _metric(V, F[good], uv, F_uv[good])
-    place = np.floor((uv[F_uv[:, 0]] + uv[F_uv[:, 1]] + uv[F_uv[:, 2]]) / (3 * at)).astype(np.int64)
-    place -= place.min(0)
-    cell = place[:, 0] * (int(place[:, 1].max(initial=0)) + 1) + place[:, 1]
+    metric = _metric(V, F, uv, F_uv, good)
+    column, row = (_squares(x, F_uv, 3 * at) for x in np.ascontiguousarray(uv.T))
+    cell = column * (int(row.max(initial=0)) + 1) + row
     weight = np.bincount(cell, plane * good)
-    total = np.stack([np.bincount(cell, plane * metric[:, k]) for k in range(3)], 1)
+    total = np.stack([np.bincount(cell, plane * one) for one in metric], 1)
     mean = total / np.maximum(weight, 1e-300)[:, None]
     middle, spread = (mean[:, 0] + mean[:, 2]) / 2, np.hypot((mean[:, 0] - mean[:, 2]) / 2, mean[:, 1])
     rough = max(float(area.sum() / max(plane[good].sum(), 1e-300)), 1.0)  # by noise, areas grow alike
@@ -46,12 +44,19 @@ def gate_share(V: Floats, F: Ints, uv: Floats, F_uv: Ints, at: float) -> float:
     return float(area[within[cell] & good].sum() / area.sum())
 
 
-def _metric(V: Floats, F: Ints, uv: Floats, F_uv: Ints) -> Floats:
-    """Give the first fundamental form of faces over the plane: E, F and G, (m, 3)."""
-    d, e = (V[F[:, k]] - V[F[:, 0]] for k in (1, 2))
-    p, q = (uv[F_uv[:, k]] - uv[F_uv[:, 0]] for k in (1, 2))
-    det = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])[:, None]
-    along_u = (d * q[:, 1:] - e * p[:, 1:]) / det
-    along_v = (e * p[:, :1] - d * q[:, :1]) / det
-    pairs = ((along_u, along_u), (along_u, along_v), (along_v, along_v))
-    return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs], 1)
+def _squares(x: Floats, F: Ints, side: float) -> Ints:
+    """Number the squares that faces' centres are in along one axis, from 0; (m,)."""
+    place = np.floor((x.take(F[:, 0]) + x.take(F[:, 1]) + x.take(F[:, 2])) / side).astype(np.int64)
+    return place - place.min()
+
+
+def _metric(V: Floats, F: Ints, uv: Floats, F_uv: Ints, good: Bools) -> Floats:
+    """Give the first fundamental form of good faces over the plane: E, F and G, (3, m)."""
+    metric = np.empty((3, len(F)))
+    for (some, d, e), (_, p, q) in zip(face_sides(V, F), face_sides(uv, F_uv), strict=True):
+        det = np.where(good[some], p[0] * q[1] - p[1] * q[0], np.inf)
+        along_u = [(x * q[1] - y * p[1]) / det for x, y in zip(d, e, strict=True)]
+        along_v = [(y * p[0] - x * q[0]) / det for x, y in zip(d, e, strict=True)]
+        for k, (a, b) in enumerate(((along_u, along_u), (along_u, along_v), (along_v, along_v))):
+            metric[k, some] = sum(x * y for x, y in zip(a, b, strict=True))
+    return metric

@@ -4,10 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from meshjig.background import Background
 from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
+from meshjig.charts.segment import WORTH_A_CHILD
 from meshjig.topology import Edges
 from meshjig.types import Floats, Ints
 
@@ -72,8 +74,27 @@ def own_charts(
 def _sound_charts(
     V: Floats, F: Ints, regions: list[Ints], method: Method, seed: int, least_share: float = 0.0
 ) -> list[Chart]:
+    """Flatten regions, every second one in a child, the largest here."""
     given = [region for region in regions if len(region)]
-    return [plain(F, *chart) for region in given for chart in rescue(V, F, region, method, seed, least_share)]
+    order = sorted(range(len(given)), key=lambda k: -len(given[k]))
+    found: list[list[Chart]] = [[] for _ in given]
+    asked = (V, F, [given[k] for k in order[1::2]], method, seed, least_share)
+    other = Background(_rescued, *asked, alone=len(F) < WORTH_A_CHILD or len(given) < 2)
+    try:
+        for k in order[::2]:
+            found[k] = _rescued(V, F, [given[k]], method, seed, least_share)[0]
+        for k, charts in zip(order[1::2], other.result(), strict=True):
+            found[k] = charts
+    except BaseException:
+        other.cancel()
+        raise
+    return [chart for charts in found for chart in charts]
+
+
+def _rescued(
+    V: Floats, F: Ints, regions: list[Ints], method: Method, seed: int, least_share: float
+) -> list[list[Chart]]:
+    return [[plain(F, *one) for one in rescue(V, F, faces, method, seed, least_share)] for faces in regions]
 
 
 def _flattened_by(

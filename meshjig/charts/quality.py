@@ -7,7 +7,7 @@ import numpy as np
 from meshjig.charts.border import longest_loop
 from meshjig.charts.flatten import FLAT_LIMITS, ring_is_simple
 from meshjig.charts.gate import gate_share
-from meshjig.measure import face_areas, singular_values, sums
+from meshjig.measure import edge_lengths, face_areas, singular_values, sums
 from meshjig.topology import edges, next_halfedge
 from meshjig.types import Atlas, Bools, Floats, Ints
 
@@ -72,8 +72,8 @@ def seam_over_sqrt_area(V: Floats, F: Ints, seam: Bools, twin: Ints | None = Non
     """
     twin = edges(F).twin if twin is None else twin
     h = np.flatnonzero((seam | seam[twin]) & (twin > np.arange(len(twin))))
-    ends = V[F.ravel()[next_halfedge(h)]] - V[F.ravel()[h]]
-    return float(np.linalg.norm(ends, axis=1).sum() / np.sqrt(face_areas(V, F).sum()))
+    ends = np.stack([F.ravel()[h], F.ravel()[next_halfedge(h)]], 1)
+    return float(edge_lengths(V, ends).sum() / np.sqrt(face_areas(V, F).sum()))
 
 
 def _is_rim(atlas: Atlas, twin: Ints) -> Bools:

@@ -1,5 +1,7 @@
 """Divide a mesh into few, large, nearly flat discs."""
 
+import importlib
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,12 +17,12 @@ from meshjig.charts.split import split
 from meshjig.charts.stout import stouter
 from meshjig.charts.tidy import tidy
 
-__all__ = ["segment"]
+__all__ = ["WORTH_A_CHILD", "get_ready", "segment"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_WORTH_A_CHILD = 4000  # faces; below, a child process takes longer to start than it saves
+WORTH_A_CHILD = 4000  # faces; below, a child process takes longer to start than it saves
 
 
 def segment(
@@ -47,13 +49,19 @@ def segment(
     if judge.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
     graph = dual(V, F)
-    other = Background(_searched, V, F, n_patches, seed + 1, rounds, conformal, alone=len(F) < _WORTH_A_CHILD)
+    other = Background(_searched, V, F, n_patches, seed + 1, rounds, conformal, alone=len(F) < WORTH_A_CHILD)
     try:
         found = _search(V, F, graph, judge, n_patches, seed, rounds), other.result()
     except BaseException:
         other.cancel()
         raise
     return polish(F, graph, min(found, key=lambda label: _cost(graph, label)), judge)
+
+
+def get_ready() -> None:
+    """Import what a search needs: in a child, while the mesh is still made lighter."""
+    for name in ("igl", "shapely", "scipy.sparse.csgraph", "scipy.sparse.linalg"):
+        importlib.import_module(name)
 
 
 def _searched(V: Floats, F: Ints, n_patches: int, seed: int, rounds: int, conformal: bool) -> Ints:

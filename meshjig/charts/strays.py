@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from meshjig.measure import edge_lengths
+from meshjig.measure import face_sides
 from meshjig.topology import edges
-from meshjig.types import Floats, Ints
+from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["without_strays"]
 
@@ -32,13 +32,15 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
     from scipy.sparse.linalg import spsolve
 
     n = len(V)
-    sides = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
-    is_sound = edge_lengths(uv, sides) <= _LONGEST * edge_lengths(V, sides)
-    if is_sound.all():
+    ab, ac, bc = _sound_sides(V, F, uv)
+    if (ab & ac & bc).all():
         return uv
-    sound = sides[is_sound]
-    graph = coo_matrix((np.ones(len(sound)), sound.T), shape=(n, n))
-    _, part = connected_components(graph, directed=False)
+    bc &= ~(ab & ac)  # no need to join what hangs together
+    rows = np.concatenate([F[ab, 0], F[ac, 0], F[bc, 1]])
+    cols = np.concatenate([F[ab, 1], F[ac, 2], F[bc, 2]])
+    _, part = connected_components(
+        coo_matrix((np.ones(len(rows)), (rows, cols)), shape=(n, n)), directed=False
+    )
     stray = part != np.bincount(part).argmax()
     if not stray.any():
         return uv
@@ -49,3 +51,13 @@ def without_strays(V: Floats, F: Ints, uv: Floats) -> Floats:
     placed = uv.copy()
     placed[stray] = spsolve(L[:, stray].tocsc(), -(L[:, ~stray] @ uv[~stray])).reshape(-1, 2)
     return placed
+
+
+def _sound_sides(V: Floats, F: Ints, uv: Floats) -> tuple[Bools, Bools, Bools]:
+    """Tell which sides of faces are not much too long: from corner 0 to 1, 0 to 2 and 1 to 2, (m,) each."""
+    sound = np.empty((3, len(F)), bool)
+    for (some, p, q), (_, d, e) in zip(face_sides(uv, F), face_sides(V, F), strict=True):
+        flat, long = ([x, y, [b - a for a, b in zip(x, y, strict=True)]] for x, y in ((p, q), (d, e)))
+        for k in range(3):
+            sound[k, some] = sum(x * x for x in flat[k]) <= _LONGEST**2 * sum(x * x for x in long[k])
+    return sound[0], sound[1], sound[2]

@@ -54,8 +54,9 @@ def transfer_labels(
     k = int(label.max()) + 1
     wanted = _euler_numbers(G, edges(G).twin, label, k)
     best, fewest = label, k + 1
+    seen = _Seen(V, F, W, G, places)
     for reach in _REACHES:  # farther, strips get lost through which a label is a disc
-        carried = _carried(V, F, twin, W, G, _shares(W, G, label, reach), places)
+        carried = tidy(F, seen.strongest(_shares(W, G, label, reach)), seen.area, twin)
         broken = int((_euler_numbers(F, twin, carried, k) != wanted).sum())
         if broken < fewest:
             best, fewest = carried, broken
@@ -68,32 +69,39 @@ def _euler_numbers(F: Ints, twin: Ints, label: Ints, k: int) -> Ints:
     """Give the Euler number of each label's faces, (k,)."""
     touches = np.zeros((int(F.max()) + 1, k), bool)
     touches[F, label[:, None]] = True
-    h = np.arange(len(twin))
-    inner = label[h // 3][(twin > h) & (label[h // 3] == label[twin // 3])]
+    own = np.repeat(label, 3)
+    inner = own[(twin > np.arange(len(twin))) & (own == label[twin // 3])]
     corners = touches.sum(0)
     return corners - 2 * np.bincount(label, minlength=k) + np.bincount(inner, minlength=k)
 
 
-def _carried(V: Floats, F: Ints, twin: Ints, W: Floats, G: Ints, share: Floats, places: Nearest) -> Ints:
-    """Give each face the label with most share where it is nearest to the proxy."""
-    best = share.argmax(2)
-    sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
-    clear = np.where(sure, best[:, 0], -1)[places.face]
-    a, b, c = (clear.take(corner) for corner in F.T)
-    known = np.where((a == b) & (b == c), a, -1)
-    rivals = np.flatnonzero(known < 0)
-    centre, bary = nearest(V[F[rivals]].mean(1), W, G)
-    known[rivals] = _strongest(share, centre, np.clip(bary, 0, 1))
-    N, M = area_vectors(V, F), area_vectors(W, G)
-    same_side = np.zeros(len(F))  # of a thin sheet
-    for own, seen in zip(N.T, M.T, strict=True):
-        at_corner = seen[places.face]
-        total = at_corner.take(F[:, 0]) + at_corner.take(F[:, 1]) + at_corner.take(F[:, 2])
-        total[rivals] = seen[centre]
-        same_side += own * total
-    if same_side.max() >= 0:
-        known[same_side < 0] = -1
-    return tidy(F, known, np.sqrt(np.einsum("ij,ij->i", N, N)), twin)
+class _Seen:
+    """A proxy as the faces of a mesh see it."""
+
+    def __init__(self, V: Floats, F: Ints, W: Floats, G: Ints, places: Nearest) -> None:
+        self._V, self._F, self._W, self._G, self._at = V, F, W, G, places.face
+        self._N, self._M = area_vectors(V, F), area_vectors(W, G)
+        self.area = np.linalg.norm(self._N, axis=1)
+        self._alike = np.zeros(len(F))  # above 0 where the proxy is seen from the same side
+        for own, normal in zip(self._N.T, self._M.T, strict=True):
+            at = normal[places.face]
+            self._alike += own * (at.take(F[:, 0]) + at.take(F[:, 1]) + at.take(F[:, 2]))
+
+    def strongest(self, share: Floats) -> Ints:
+        """Give each face the label with most share where it is nearest, -1 on the back of a thin sheet."""
+        best = share.argmax(2)
+        sure = (share.max(2) > _SURE).all(1) & (best == best[:, :1]).all(1)
+        clear = np.where(sure, best[:, 0], -1)[self._at]
+        a, b, c = (clear.take(corner) for corner in self._F.T)
+        known = np.where((a == b) & (b == c), a, -1)
+        rivals = np.flatnonzero(known < 0)
+        centre, bary = nearest(self._V[self._F[rivals]].mean(1), self._W, self._G)
+        known[rivals] = _strongest(share, centre, np.clip(bary, 0, 1))
+        alike = self._alike.copy()
+        alike[rivals] = np.einsum("ij,ij->i", self._N[rivals], self._M[centre])
+        if alike.max() >= 0:
+            known[alike < 0] = -1
+        return known
 
 
 def _shares(W: Floats, G: Ints, label: Ints, reach: float) -> Floats:

@@ -15,11 +15,12 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 _THINNEST = 1e-3  # the lesser stretch below which a face counts as mirrored
+_LARGE = 50_000  # faces, from which on a list of the faces at each vertex is made sooner than a ring found
 _FIRST = 6  # rounds that turn back most, before wider surroundings are looked at
 _BORDER_STAYS = 2  # rounds in which only inner vertices move
 
 
-def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
+def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30, stretch: Floats | None = None) -> Floats:
     """Relax small neighbourhoods of mirrored faces until none is left.
 
     The vertices of mirrored faces, later also those around, move to the mean of their neighbours;
@@ -31,12 +32,13 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
     F : (m, 3) int64, one disc that uses every vertex
     uv : (n, 2) float64, mm
     rounds : int
+    stretch : (m, 2) float64, singular values of the faces, where the caller has them
 
     Returns
     -------
     uv : (n, 2) float64, mm. Mirrored faces may be left: the caller checks.
     """
-    bad = _mirrored(V, F, uv)
+    bad = _mirrored(V, F, uv) if stretch is None else stretch[:, 1] <= _THINNEST
     for n, even in ((_FIRST, False), (rounds, True)):
         if not bad.any():
             break
@@ -52,6 +54,8 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30) -> Floats:
 
 def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
     """Mark faces (m,) and rings of faces around them, (m,) bool."""
+    if len(F) > _LARGE:
+        return _spread(F, faces, rings)
     reached = np.zeros(int(F.max()) + 1, bool)
     a, b, c = np.ascontiguousarray(F.T)  # three looks at columns are quicker than any() along rows
     before = np.zeros(len(F), bool)
@@ -59,6 +63,25 @@ def faces_around(F: Ints, faces: Bools, rings: int) -> Bools:
         reached[F[faces & ~before].ravel()] = True
         before, faces = faces, reached[a] | reached[b] | reached[c]
     return faces
+
+
+def _spread(F: Ints, faces: Bools, rings: int) -> Bools:
+    """Do the same with a list of the faces at each vertex: after that, far ones cost nothing."""
+    from scipy.sparse import csr_matrix
+
+    corner_of = csr_matrix((np.ones(F.size, np.int8), F.ravel(), np.arange(0, F.size + 1, 3)))
+    at_vertex = corner_of.tocsc()
+    begin, n = at_vertex.indptr[:-1].astype(np.int64), np.diff(at_vertex.indptr).astype(np.int64)
+    marked, rim, reached = faces.copy(), np.flatnonzero(faces), np.zeros(len(n), bool)
+    for _ in range(rings):
+        new = F[rim].ravel()
+        new = np.unique(new[~reached[new]])
+        reached[new] = True
+        first = np.cumsum(n[new]) - n[new]
+        rim = at_vertex.indices[np.repeat(begin[new] - first, n[new]) + np.arange(n[new].sum())]
+        rim = np.unique(rim[~marked[rim]])
+        marked[rim] = True
+    return marked
 
 
 def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: int, even: bool) -> Floats:
