@@ -8,7 +8,7 @@ from meshjig.check import add_failures, judge_core
 from meshjig.finish import LETTERING, engrave, make_core
 from meshjig.options import Options
 from meshjig.output.piece import Piece
-from meshjig.output.printable import printable
+from meshjig.output.printable import all_printable
 from meshjig.output.printers import parse_plate
 from meshjig.output.view import guess_up
 from meshjig.solid import Shell
@@ -49,7 +49,7 @@ def finished(
             LETTERING.get(options.process, LETTERING["fdm"]),
             min_wall=options.min_wall,
         )
-    return [printable(V, F) for V, F in solids], facts
+    return all_printable(solids), facts
 
 
 def core_of(surface: Mesh, sheets: Shell, options: Options) -> tuple[list[Piece], dict[str, Any]]:
@@ -79,7 +79,7 @@ def core_of(surface: Mesh, sheets: Shell, options: Options) -> tuple[list[Piece]
         up=guess_up(surface.V, surface.F),
         plate=None if plate is None else (plate.width, plate.depth, plate.height),
     )
-    sound = [printable(*part) for part in parts]
+    sound = all_printable(parts)
     return [Piece(f"core_{i + 1}", V, F, CORE_COLOUR) for i, (V, F) in enumerate(sound)], facts
 
 

@@ -51,7 +51,7 @@ def divide_at_isthmuses(
     if (piece == stitching.piece_of_region[cut.region]).all():
         return cut, replace(stitching, facts=facts)
     both = cut.region * np.int64(piece.max() + 1) + piece
-    n, region = components(cut.F, np.repeat(both, 3) != both[e.twin // 3])
+    n, region = components(cut.F, np.repeat(both, 3) != both[e.twin // 3], e.twin)
     piece_of_region = np.zeros(n, np.int64)
     piece_of_region[region] = np.unique(piece, return_inverse=True)[1]
     return replace(cut, region=region), Stitching(piece_of_region, facts)

@@ -89,7 +89,7 @@ def _through_faces(
             runs = np.stack([stretch[a, p], stretch[b, q]], 1)
             tried = np.flatnonzero((runs >= 0).all(1) & (label[runs[:, 0]] != label[runs[:, 1]]))
             a, b, p, q, runs = a[tried], b[tried], p[tried], q[tried], runs[tried]
-            leads = _freebetween(V, rim, (ends[a], ALONG[p]), (ends[b], ALONG[q]), NEARLY * width / 2)
+            leads = _free_between(V, rim, (ends[a], ALONG[p]), (ends[b], ALONG[q]), NEARLY * width / 2)
             found.append(runs[leads])
             a, b = a[~leads], b[~leads]
     return np.concatenate(found)
@@ -113,7 +113,7 @@ def _places(stretch: Ints, last: bool) -> Ints:
     return np.stack([(begin + end) // 2, begin, end], 1)
 
 
-def _freebetween(
+def _free_between(
     V: Floats, rim: Rim, one: tuple[Ints, Floats], other: tuple[Ints, Floats], least: float
 ) -> Bools:
     """Tell between which points, each given as ends of an edge and place on it, all is far from borders."""

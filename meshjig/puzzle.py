@@ -124,7 +124,7 @@ class Puzzle:
         """Show the viewer in a notebook."""
         from meshjig.output.viewer import viewer_html
 
-        return viewer_html(self.pieces, self.report)
+        return viewer_html(self.pieces, self.report, self.core)
 
     @classmethod
     def load(cls, directory: str | Path) -> Puzzle:

@@ -60,29 +60,15 @@ def rim_of(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Rim:
 def distances_along(V: Floats, ends: Ints, rim: Rim, width: float) -> Floats:
     """Give the distance of edges (k, 2) from the borders all along them, (k, 9), mm.
 
-    An edge so short or so far from the borders that it can't come near has those of its ends; so has a
-    stretch of another one between two places that leave no doubt of it.
+    An edge so short or so far from the borders that it can't come near has those of its ends.
     """
     at_end = rim.distance(V, rim.N)[ends]
     length = np.linalg.norm(V[ends[:, 0]] - V[ends[:, 1]], axis=1)
     far = at_end[:, :1] + ALONG * (at_end[:, 1:] - at_end[:, :1])
     doubt = np.flatnonzero(at_end.sum(1) < length + width)
-    far[doubt] = _places(V, ends[doubt], length[doubt], far[doubt], rim, width)
-    return far
-
-
-def _places(V: Floats, ends: Ints, length: Floats, far: Floats, rim: Rim, width: float) -> Floats:
-    """Look at places halfway between others, (k, 9), again and again; where no doubt is left, guess."""
-    step = len(ALONG) - 1
-    while step > 1:
-        most = length * ALONG[step]  # by which distances change on the way, but for a border behind
-        for k in range(step // 2, len(ALONG), step):
-            a, b = far[:, k - step // 2], far[:, k + step // 2]
-            far[:, k] = (a + b) / 2
-            look = np.flatnonzero((np.abs(a + b - width) < most) | (np.abs(a - b) > most))
-            at = np.full(len(look), ALONG[k])
-            far[look, k] = rim.distance(between(V, ends[look], at), between(rim.N, ends[look], at))
-        step //= 2
+    inner, t = len(ALONG) - 2, np.tile(ALONG[1:-1], len(doubt))
+    along = np.repeat(ends[doubt], inner, axis=0)
+    far[doubt, 1:-1] = rim.distance(between(V, along, t), between(rim.N, along, t)).reshape(-1, inner)
     return far
 
 

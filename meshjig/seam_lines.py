@@ -11,7 +11,7 @@ from meshjig.cells.even_borders import Evened, Line, even_borders
 from meshjig.check.congruent import borders
 from meshjig.layout import Layout
 from meshjig.recut import recut
-from meshjig.topology import compact, edge_keys, edges, next_halfedge
+from meshjig.topology import Edges, compact, edge_keys, edges, next_halfedge
 from meshjig.types import Bools, CutMesh, Ints
 
 __all__ = ["even_seams"]
@@ -41,7 +41,7 @@ def even_seams(layout: Layout) -> tuple[Layout, Bools]:
         wanted = np.unique([(line.left, line.right) for line in lines])
         chosen = np.flatnonzero(np.isin(layout.piece_of_face, wanted))
         made = _evened(layout, chosen, lines)
-        good = shapes(made.F, made.cell, n, edges(made.F)) == DISC
+        good = shapes(made.F, made.cell, n, made.e) == DISC
         if good[wanted].all():
             return _taken_in(layout, chosen, made), discs
         lines = [line for line in lines if good[line.left] and good[line.right]]
@@ -104,14 +104,13 @@ def _taken_in(layout: Layout, chosen: Ints, made: Evened) -> Layout:
 def _new_borders(F: Ints, cell: Ints, made: Evened) -> Ints:
     """List the edges (c, 2) between two cells that were no such edges before, a cell on their left."""
     n = len(made.V)
-    ends = _between(made.F, made.cell)
-    return ends[~np.isin(edge_keys(ends, n), edge_keys(_between(F, cell), n))]
+    ends = _between(made.F, made.cell, made.e)
+    return ends[~np.isin(edge_keys(ends, n), edge_keys(_between(F, cell, edges(F)), n))]
 
 
-def _between(F: Ints, cell: Ints) -> Ints:
+def _between(F: Ints, cell: Ints, e: Edges) -> Ints:
     """List the edges (c, 2) between two cells, a cell on their left."""
-    twin = edges(F).twin
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    h = h[cell[h // 3] != cell[twin[h] // 3]]
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = h[cell[h // 3] != cell[e.twin[h] // 3]]
     corner = F.ravel()
     return np.stack([corner[h], corner[next_halfedge(h)]], 1)

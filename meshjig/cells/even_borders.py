@@ -36,6 +36,7 @@ class Evened(NamedTuple):
     cell: Ints  # (m',)
     vertex_face: Ints  # (n',), a face that a vertex lies in
     vertex_bary: Floats  # (n', 3), where in that face
+    e: Edges  # of F
 
 
 def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
@@ -74,7 +75,7 @@ def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
     face[new] = h // 3
     t = np.where(F.ravel()[h] == e.E[differ, 0], along[differ], 1 - along[differ])
     bary[new, h % 3], bary[new, (h + 1) % 3] = 1 - t, t
-    return Evened(cut.V, cut.F, cut.parent, cut.cell, face, bary)
+    return Evened(cut.V, cut.F, cut.parent, cut.cell, face, bary, cut.e)
 
 
 def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints, Floats]:
@@ -89,7 +90,7 @@ def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints,
 
 def _strays(cut: Marched) -> Bools:
     """Mark faces that are cut off from the rest of their cell, (m,)."""
-    n, part = components(cut.F, cut.cell[np.arange(3 * len(cut.F)) // 3] != cut.cell[cut.e.twin // 3])
+    n, part = components(cut.F, np.repeat(cut.cell, 3) != cut.cell[cut.e.twin // 3], cut.e.twin)
     size = sums(part, face_areas(cut.V, cut.F), n)
     cell = np.empty(n, np.int64)
     cell[part] = cut.cell

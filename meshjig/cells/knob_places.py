@@ -53,13 +53,14 @@ class _Places(NamedTuple):
         return _Places(side[which], at[which], shape[which], largest[which], least[which], ends[which])
 
 
-def candidates(room: Room, wish: Wish, rng: np.random.Generator) -> Candidates:
-    """List knobs and waves that fit, at several places on both sides of every border.
+def candidates(room: Room, wish: Wish, rng: np.random.Generator, asked: Bools | None = None) -> Candidates:
+    """List knobs and waves that fit, at several places on both sides of every border, or on the sides asked.
 
     Stout knobs are among them only where a slim one's neck would soon be too thin.
     """
     b = room.borders
     n = len(b.cell)
+    asked = np.ones(n, bool) if asked is None else asked
     at = np.tile((np.arange(_PLACES) + 0.5) / _PLACES, n)
     at = at + rng.uniform(-0.25, 0.25, len(at)) * (0.2 + 0.8 * wish.random) / _PLACES
     variant = rng.integers(0, 1 << 30, len(b.sides))[b.border]
@@ -71,7 +72,7 @@ def candidates(room: Room, wish: Wish, rng: np.random.Generator) -> Candidates:
     for kind in kinds:
         shapes = room.shapes.of_kind(kind)
         shape = shapes[variant % len(shapes)]
-        parts += _largest(room, _places(room, wish, at, shape, vary))
+        parts += _largest(room, _places(room, wish, at, shape, vary), asked)
     curves = Curves(*(np.concatenate(values) for values in zip(*(c for c, *_ in parts), strict=True)))
     return Candidates(curves, *(np.concatenate(values) for values in list(zip(*parts, strict=True))[1:]))
 
@@ -89,9 +90,9 @@ def _places(room: Room, wish: Wish, at: Floats, shape: Ints, vary: Floats) -> _P
     return _Places(side, at, shape, largest, least, ends)
 
 
-def _largest(room: Room, places: _Places) -> list[tuple[Curves, Floats, Ints]]:
+def _largest(room: Room, places: _Places, asked: Bools) -> list[tuple[Curves, Floats, Ints]]:
     """Give the largest curves that fit at places, and smaller ones there."""
-    todo = places.take((places.ends >= places.least) & (places.largest >= places.least))
+    todo = places.take(asked[places.side] & (places.ends >= places.least) & (places.largest >= places.least))
     parts = []
     for step in _STEPS:
         radius = np.maximum(step * todo.largest, todo.least)

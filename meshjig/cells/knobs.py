@@ -195,7 +195,7 @@ def _holds(room: Room, lift: Lift, c: Curves) -> Bools:
 
 def _too_thin(room: Room, wish: Wish, without: Bools, rng: np.random.Generator) -> int:
     """Count the borders of some that could have a knob if its neck might be thinner."""
-    freely = candidates(room._replace(least_neck=0.0), wish, rng).curves
+    freely = candidates(room._replace(least_neck=0.0), wish, rng, without[room.borders.border]).curves
     knobs = freely.side[room.shapes.kind[freely.shape] != WAVE]
     possible = np.zeros(len(without), bool)
     possible[room.borders.border[knobs]] = True

@@ -21,6 +21,7 @@ class Patches(NamedTuple):
     cell: Ints  # (m,), of a face
     of_vertex: Ints  # (k,), the cell of a vertex
     n: int  # cells
+    area: Floats  # (m,), of a face in space, mm2
 
 
 def patches(V: Floats, F: Ints, cell: Ints) -> Patches:
@@ -28,7 +29,7 @@ def patches(V: Floats, F: Ints, cell: Ints) -> Patches:
     n = int(cell.max(initial=-1)) + 1
     key = np.repeat(cell, 3) * np.int64(len(V)) + F.ravel()
     found, corner = np.unique(key, return_inverse=True)
-    return Patches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n)
+    return Patches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n, face_areas(V, F))
 
 
 def projected(p: Patches) -> Floats:
@@ -43,7 +44,7 @@ def projected(p: Patches) -> Floats:
 
 def mirrored(p: Patches, uv: Floats) -> Bools:
     """Tell which faces are mirrored or empty, (m,)."""
-    out: Bools = ~(face_areas(uv, p.F) > 1e-6 * face_areas(p.V, p.F))
+    out: Bools = ~(face_areas(uv, p.F) > 1e-6 * p.area)
     return out
 
 
@@ -52,16 +53,14 @@ def folded(p: Patches, uv: Floats) -> Bools:
     fold = np.flatnonzero(mirrored(p, uv))
     x = p.V[p.F[fold]]
     longest = np.linalg.norm(x - x[:, [1, 2, 0]], axis=2).max(1)
-    thick = 2 * face_areas(p.V, p.F[fold]) > _SLIVER * longest
+    thick = 2 * p.area[fold] > _SLIVER * longest
     out: Bools = np.bincount(p.cell[fold], thick, minlength=p.n) > 0
     return out
 
 
 def scaled(p: Patches, uv: Floats) -> Floats:
     """Give each cell the area in the plane that it has in space."""
-    size = sums(p.cell, face_areas(p.V, p.F), p.n) / np.maximum(
-        sums(p.cell, np.abs(face_areas(uv, p.F)), p.n), 1e-300
-    )
+    size = sums(p.cell, p.area, p.n) / np.maximum(sums(p.cell, np.abs(face_areas(uv, p.F)), p.n), 1e-300)
     return uv * np.sqrt(size)[p.of_vertex, None]
 
 
@@ -102,4 +101,5 @@ def subset(p: Patches, chosen: Bools) -> tuple[Patches, Ints]:
     faces = chosen[p.cell]
     F, kept = compact(p.F[faces])
     number = np.cumsum(chosen) - 1
-    return Patches(p.V[kept], F, number[p.cell[faces]], number[p.of_vertex[kept]], int(chosen.sum())), kept
+    cell, of_vertex = number[p.cell[faces]], number[p.of_vertex[kept]]
+    return Patches(p.V[kept], F, cell, of_vertex, int(chosen.sum()), p.area[faces]), kept

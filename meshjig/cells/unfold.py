@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshjig.cells.planar import Patches, mirrored
-from meshjig.measure import face_areas, sums
+from meshjig.measure import sums
 from meshjig.topology import edges
 from meshjig.types import Floats
 
@@ -63,4 +63,4 @@ def unfolded(p: Patches, uv: Floats) -> Floats:
 
 def _fold_area(p: Patches, uv: Floats) -> Floats:
     """Give the area in space of the mirrored faces of each cell, (n,)."""
-    return sums(p.cell, face_areas(p.V, p.F) * mirrored(p, uv), p.n)
+    return sums(p.cell, p.area * mirrored(p, uv), p.n)

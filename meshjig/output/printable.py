@@ -1,16 +1,20 @@
 """Solids as a file of 32-bit floats can hold them: still closed when points are told apart by value alone."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from meshjig.errors import OutputError
-from meshjig.output.needles import without_needles
-from meshjig.topology import compact, edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.output.needles import low_faces, without_needles
+from meshjig.output.short_edges import without_degenerate, without_short_edges
+from meshjig.topology import compact
+from meshjig.types import Floats, Ints
 
-__all__ = ["printable"]
+__all__ = ["all_printable", "printable"]
 
 _SHORTEST = 1e-4  # mm; slicers weld points nearer than about this
 _ROUNDS = 60
+_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5], np.uint64)
 
 
 def printable(V: Floats, F: Ints) -> tuple[Floats, Ints]:
@@ -36,28 +40,63 @@ def printable(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     OutputError
         A point is not finite.
     """
-    if not np.isfinite(V).all():
+    return all_printable([(V, F)])[0]
+
+
+def all_printable(solids: Sequence[tuple[Floats, Ints]]) -> list[tuple[Floats, Ints]]:
+    """Make solids survive being written as STL and read back, see `printable`; quicker than one by one."""
+    if not all(np.isfinite(V).all() for V, _ in solids):
         raise OutputError("a piece has points that are not finite", hint="please report this model")
-    F = _without_degenerate(F)
-    if not _is_closed(F):
-        F = _without_degenerate(_first_equal(_rounded(V))[F])
-    V = _rounded(V)
-    F = without_needles(V, _without_short_edges(V, F), _SHORTEST)
+    sizes = np.array([len(V) for V, _ in solids], np.int64)
+    of, first = np.repeat(np.arange(len(sizes)), sizes), np.cumsum(sizes) - sizes
+    none_V, none_F = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
+    V = _rounded(np.concatenate([none_V, *(V for V, _ in solids)]))
+    F = without_degenerate(
+        np.concatenate([none_F, *(F + k for (_, F), k in zip(solids, first, strict=True))])
+    )
+    for piece in np.unique(of[_on_open_edges(F)]).tolist():
+        own = first[piece] + np.arange(sizes[piece])
+        same = np.arange(len(V))
+        same[own] = own[_first_equal(V[own])]
+        F = without_degenerate(same[F])
+    F, low = without_short_edges(V, F, _SHORTEST, low_faces(V, F, _SHORTEST))
+    F = without_needles(V, F, _SHORTEST, low)
     F, kept = compact(F)
-    return _moved_apart(V[kept], F), F
+    return _parted(V[kept], F, of[kept], len(solids))
+
+
+def _parted(V: Floats, F: Ints, of: Ints, n: int) -> list[tuple[Floats, Ints]]:
+    """Take n solids apart, by what each vertex is of, and points that coincide in one of them as well."""
+    (first_V, end_V), (first_F, end_F) = (
+        (np.cumsum(count) - count, np.cumsum(count))
+        for count in (np.bincount(of, minlength=n), np.bincount(of[F[:, 0]], minlength=n))
+    )
+    twice = set(of[_with_a_twin(V, of)].tolist())
+    made = []
+    for k in range(n):
+        W, G = V[first_V[k] : end_V[k]], F[first_F[k] : end_F[k]] - first_V[k]
+        made.append((_moved_apart(W, G) if k in twice else W, G))
+    return made
 
 
 def _rounded(V: Floats) -> Floats:
     return V.astype(np.float32).astype(np.float64) + 0.0  # -0 becomes 0: readers compare bytes
 
 
-def _without_degenerate(F: Ints) -> Ints:
-    good = (F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])
-    return F if good.all() else F[good]
+def _on_open_edges(F: Ints) -> Ints:
+    """Give a vertex of every edge that has not exactly two faces."""
+    a, b = F.ravel(), F[:, [1, 2, 0]].ravel()
+    bits = int(F.max(initial=0)).bit_length()
+    key = np.sort((np.minimum(a, b) << bits) | np.maximum(a, b))
+    start = np.flatnonzero(np.diff(key, prepend=-1))
+    return key[start[np.diff(start, append=len(key)) != 2]] >> bits
 
 
-def _is_closed(F: Ints) -> bool:
-    return bool((edges(F).n_faces == 2).all())
+def _with_a_twin(V: Floats, of: Ints) -> Ints:
+    """Give points that may coincide with another one of the same piece, at least one of each such two."""
+    name = V.astype(np.float32).view(np.uint32).astype(np.uint64) @ _MIX[:3] + of.astype(np.uint64) * _MIX[3]
+    order = np.argsort(name)
+    return order[1:][np.diff(name[order]) == 0]
 
 
 def _first_equal(V: Floats) -> Ints:
@@ -70,57 +109,6 @@ def _first_equal(V: Floats) -> Ints:
         np.cumsum(new) - 1
     ]  # lexsort is stable: the first of a run has the least number
     return first
-
-
-def _lengths(V: Floats, a: Ints, b: Ints) -> Floats:
-    return np.linalg.norm(V[a] - V[b], axis=1)
-
-
-def _without_short_edges(V: Floats, F: Ints) -> Ints:
-    """Collapse short edges, in each round all those that are shortest in their neighbourhood."""
-    for _ in range(_ROUNDS):
-        if not (_lengths(V, F.ravel(), F[:, [1, 2, 0]].ravel()) < _SHORTEST).any():
-            break
-        e = edges(F)
-        length = _lengths(V, *e.E.T)
-        short = np.flatnonzero(length < _SHORTEST)
-        short = short[_collapsible(e.E, e.n_faces, short)]
-        if not len(short):
-            break
-        short = short[np.argsort(length[short], kind="stable")]
-        chosen = e.E[short[_far_apart(e.E, short)]]
-        target = np.arange(len(V))
-        target[chosen[:, 1]] = chosen[:, 0]
-        F = _without_degenerate(target[F])
-    return F
-
-
-def _collapsible(E: Ints, count: Ints, candidates: Ints) -> Bools:
-    """Tell which edges meet the link condition: their ends share the two vertices opposite and no more."""
-    from scipy.sparse import coo_matrix
-
-    n = int(E.max(initial=0)) + 1
-    both = np.concatenate([E, E[:, ::-1]])
-    touching = coo_matrix((np.ones(len(both), np.int32), (both[:, 0], both[:, 1])), shape=(n, n)).tocsr()
-    on_border = np.zeros(n, bool)
-    on_border[E[count != 2].ravel()] = True
-    degree = np.bincount(E.ravel(), minlength=n)
-    a, b = E[candidates].T
-    shared = np.asarray(touching[a].multiply(touching[b]).sum(axis=1)).ravel()
-    tetrahedron = (degree[a] == 3) & (degree[b] == 3)
-    return (shared == 2) & ~tetrahedron & ~on_border[a] & ~on_border[b]
-
-
-def _far_apart(E: Ints, ordered: Ints) -> Ints:
-    """Pick from ordered edges those with no better one within two steps: they can collapse at once."""
-    rank = np.full(int(E.max()) + 1, len(ordered))
-    np.minimum.at(rank, E[ordered].ravel(), np.repeat(np.arange(len(ordered)), 2))
-    for _ in range(2):
-        wider = rank.copy()
-        np.minimum.at(wider, E[:, 0], rank[E[:, 1]])
-        np.minimum.at(wider, E[:, 1], rank[E[:, 0]])
-        rank = wider
-    return np.flatnonzero(rank[E[ordered]].min(axis=1) == np.arange(len(ordered)))
 
 
 def _moved_apart(V: Floats, F: Ints) -> Floats:

@@ -94,7 +94,7 @@ def save_puzzle(
             from meshjig.output.viewer import FILE, write_viewer
 
             with _lap(seconds, "viewer"):
-                write_viewer(folder / FILE, pieces, report, plates=plates)
+                write_viewer(folder / FILE, pieces, report, plates=plates, core=core)
         if guide:
             with _lap(seconds, "guide"):
                 _write_guide(folder, pieces, report, plates, pictures)

@@ -39,6 +39,7 @@ def write_viewer(
     report: Mapping[str, Any],
     *,
     plates: Mapping[str, int] | None = None,
+    core: Sequence[Piece] = (),
 ) -> None:
     """Write a page that shows a puzzle and works without a network.
 
@@ -51,28 +52,30 @@ def write_viewer(
         missing is measured, left out, or made.
     plates : mapping, optional
         The plate that holds each piece, by the piece's name.
+    core : sequence of Piece
+        The parts of the body that the puzzle is built on.
 
     Raises
     ------
     OutputError
         There are no pieces.
     """
-    path.write_text(_page(pieces, report, plates or {}), encoding="utf-8")
+    path.write_text(_page(pieces, report, plates or {}, core), encoding="utf-8")
 
 
-def viewer_html(pieces: Sequence[Piece], report: Mapping[str, Any]) -> str:
+def viewer_html(pieces: Sequence[Piece], report: Mapping[str, Any], core: Sequence[Piece] = ()) -> str:
     """Give the viewer as a frame for notebooks, an HTML element that holds the whole page.
 
     Parameters
     ----------
-    pieces, report
+    pieces, report, core
         As for ``write_viewer``.
 
     Returns
     -------
     str
     """
-    page = html.escape(_page(pieces, report, {}))
+    page = html.escape(_page(pieces, report, {}, core))
     style = f"width:100%;height:{_HEIGHT}px;border:1px solid #8884;border-radius:8px"
     return f'<iframe title="Puzzle" style="{style}" srcdoc="{page}"></iframe>'
 
@@ -105,14 +108,17 @@ def open_viewer(directory: str | Path) -> Path:
     return page
 
 
-def _page(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int]) -> str:
+def _page(
+    pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int], core: Sequence[Piece]
+) -> str:
     if not pieces:
         raise OutputError("a puzzle without pieces can't be shown", hint="make one first")
-    packed = pack(pieces)
+    packed = pack([*pieces, *core])
+    data = _data(pieces, report, plates) | {"core": len(core), "mesh": packed.facts}
     parts = {
         "title": html.escape(_title(report)),
         "style": _file("viewer.css"),
-        "data": _json(_data(pieces, report, plates) | {"mesh": packed.facts}),
+        "data": _json(data),
         "mesh": base64.b64encode(packed.data).decode("ascii"),
         "three": _file("three.min.js"),
         "script": "".join(map(_file, _SCRIPTS)),

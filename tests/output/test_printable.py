@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from meshjig.errors import OutputError
 from meshjig.measure import mesh_volume
-from meshjig.output.printable import printable
+from meshjig.output.printable import all_printable, printable
 from tests.meshes import Shape, closed_cylinder, creased_box, genus2, joined, sphere, torus
 from tests.strategies import CLOSED, meshes
 
@@ -85,6 +85,20 @@ def test_loose_triangles_are_joined():
     W, G = printable(V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3))
     assert len(W) == len(V)
     assert open_halfedges(reread(W, G)) == []
+
+
+def test_many_at_once_come_out_as_each_by_itself_though_they_touch():
+    V, F = torus(600)
+    half = 20 * TETRAHEDRON[0]
+    pinched = joined(Shape(half, TETRAHEDRON[1]), Shape(half * [-1, -1, 1], TETRAHEDRON[1]))
+    loose = (V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3))
+    broken = (with_short_edges(V, F, 0.2, 1), F)
+    solids = [(V, F), loose, broken, (V, F), (np.zeros((0, 3)), F[:0]), pinched]
+    for (W, G), solid in zip(all_printable(solids), solids, strict=True):
+        X, H = printable(*solid)
+        np.testing.assert_array_equal(W, X)
+        np.testing.assert_array_equal(G, H)
+    assert all_printable([]) == []
 
 
 def test_faces_without_extent_are_dropped():

@@ -6,6 +6,9 @@ import re
 import numpy as np
 import pytest
 
+from meshjig.output.piece import Piece
+from meshjig.output.viewer import write_viewer
+from tests.meshes import sphere
 from tests.output.browser import Browser
 from tests.output.viewing import (
     BIG,
@@ -14,6 +17,8 @@ from tests.output.viewing import (
     needs_browser,
     opened,
     pixels_of,
+    report_of,
+    ring,
     seen,
     shown,
     text,
@@ -181,3 +186,23 @@ def test_on_a_phone_everything_fits_and_a_tap_chooses(wheel):
             phone.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
         phone.wait_for("$('card').innerText.startsWith('Piece 5')")
         assert phone.errors == []
+
+
+@needs_browser
+def test_the_core_stays_in_the_middle_is_no_piece_and_can_be_hidden(desktop, tmp_path):
+    core = Piece("core_1", *sphere(500, 20.0), (0.6, 0.6, 0.6))
+    write_viewer(tmp_path / "viewer.html", ring(), report_of(ring()), core=[core])
+    page = opened(desktop, tmp_path / "viewer.html")
+    assert seen(page) == {1, 2, 3, 4, 5, 6, 7}
+    assert text(page, "summary") == "6 pieces"
+    picture, (left, top) = shown(page)
+    middle = np.argwhere(hue_of(picture) > 0).mean(0)
+    page.click(left + middle[1], top + middle[0])
+    assert page.value("$('card').hidden")
+    page.press("k")
+    assert seen(page) == {1, 2, 3, 4, 5, 6}
+    page.press("k")
+    click_on(page, 3)
+    page.press("h")
+    assert seen(page) == {2, 3, 4}
+    assert page.errors == []

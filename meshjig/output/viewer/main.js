@@ -3,7 +3,7 @@
 class Viewer {
   constructor(stage, data) {
     Object.assign(this, { stage, data });
-    this.state = { amount: 0, colour: data.mesh.look ? "picture" : "piece", numbers: false, chosen: null, scope: "all", step: data.steps.length + 1, playing: null };
+    this.state = { amount: 0, colour: data.mesh.look ? "picture" : "piece", numbers: false, chosen: null, scope: "all", step: data.steps.length + 1, playing: null, core: true };
     data.steps.forEach((ids, k) => ids.forEach((id) => (data.pieces[id - 1].step = k + 1)));
     this.ways = colourWays(data);
     this.labels = new Labels($("labels"), stage);
@@ -20,7 +20,7 @@ class Viewer {
   refresh() {
     const way = this.ways[this.state.colour];
     const pale = getComputedStyle(document.documentElement).getPropertyValue("--pale").trim();
-    this.stage.dress(way.tint, (piece) => this.keepOf(piece), this.state.colour === "picture", pale);
+    this.stage.dress(way.tint, (piece) => this.keepOf(piece), this.coreKeeps, this.state.colour === "picture", pale);
     this.panel.show(this.state, way);
   }
 
@@ -34,6 +34,12 @@ class Viewer {
     const near = piece.neighbours.includes(chosen);
     if (scope === "one" || (scope === "near" && !near)) return null;
     return near ? 0.6 : 0.18;
+  }
+
+  get coreKeeps() {
+    const { core, chosen, scope } = this.state;
+    if (!core || scope !== "all") return null;
+    return chosen ? 0.18 : 1;
   }
 
   labelOf(piece) {
@@ -148,6 +154,7 @@ class Viewer {
       e: () => this.explodeTo(amount > 0.05 ? 0 : 0.6),
       "<": () => this.explode(Math.max(amount - 0.1, 0)), ">": () => this.explode(Math.min(amount + 0.1, 1.5)),
       c: () => this.nextColour(), n: () => this.numbers(!this.state.numbers),
+      k: () => this.set({ core: !this.state.core }),
       ",": () => this.stepBy(-1), ".": () => this.stepBy(1), p: () => this.play(),
       0: () => this.home(), t: () => this.theme(), "?": () => $("keys").showModal(),
     }[key.length === 1 ? key.toLowerCase() : key];

@@ -1,6 +1,7 @@
 // The stage: camera, light, drawing on demand, and what lies under a place of the picture.
 
 const TOO_SLOW = 70; // milliseconds for a frame
+const CORE = new THREE.Color("#9a9a9a"); // stays in the middle, and is no piece
 const STILL = 160; // milliseconds after which what moved has come to rest; twice that on a slow machine
 
 class Stage {
@@ -11,7 +12,7 @@ class Stage {
     this.onMove = this.onStill = () => {};
     this.byProcessor = drawnByProcessor();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.byProcessor, alpha: true });
-    const rows = Math.ceil(data.pieces.length / ROW);
+    const rows = Math.ceil((data.pieces.length + data.core) / ROW);
     this.tints = table(rows);
     this.moves = table(rows);
     data.pieces.forEach((piece, k) => this.moves.image.data.set([...piece.way, 1], 4 * k));
@@ -160,13 +161,17 @@ class Stage {
     this.draw();
   }
 
-  dress(tintOf, keepOf, picture, pale) {
+  dress(tintOf, keepOf, coreKeeps, picture, pale) {
     const tints = this.tints.image.data, moves = this.moves.image.data;
     this.data.pieces.forEach((piece, k) => {
       const keep = keepOf(piece);
       tints.set([...tintOf(piece), keep === null ? 0 : 1], 4 * k);
       moves[4 * k + 3] = keep ?? 0;
     });
+    for (let k = this.data.pieces.length; k < this.data.pieces.length + this.data.core; k++) {
+      tints.set([...CORE.toArray(), coreKeeps === null ? 0 : 1], 4 * k);
+      moves[4 * k + 3] = coreKeeps ?? 0;
+    }
     this.tints.needsUpdate = this.moves.needsUpdate = true;
     this.uniforms.picture.value = picture;
     this.uniforms.pale.value.set(pale);
@@ -199,7 +204,8 @@ class Stage {
   }
 
   pieceAt(x, y) {
-    return this.ids(1, 1, { x, y })[0] || null;
+    const id = this.ids(1, 1, { x, y })[0];
+    return id && id <= this.data.pieces.length ? id : null;
   }
 }
 
