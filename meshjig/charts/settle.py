@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from meshjig.charts.flatten import FLAT_LIMITS
 from meshjig.charts.untangle import faces_around
-from meshjig.measure import face_areas, singular_values
+from meshjig.measure import face_areas, face_sides, singular_values, sums
 from meshjig.topology import border_halfedges, compact
 
 __all__ = ["settle"]
@@ -67,14 +67,16 @@ def _settled(V: Floats, F: Ints, before: Floats, free: Bools, rounds: int) -> Fl
 
     corners = _flat_faces(V, F)
     L = -igl.cotmatrix(V, F).tocsr()
-    weight = _cotangents(corners)
+    sides = _cotangents(corners)[..., None] * (np.roll(corners, -1, 1) - corners)
+    sides = np.ascontiguousarray(sides.transpose(1, 2, 0))
     inner = L[free][:, free]
-    diagonal = np.maximum(inner.diagonal(), 1e-12 * abs(L.diagonal()).max())[:, None]
+    diagonal = np.maximum(inner.diagonal(), 1e-12 * abs(L.diagonal()).max())
     uv = before
     for _ in range(rounds):
-        residual = _pull(F, uv, corners, weight) - L @ uv
+        residual = (_pull(F, uv, sides) - L @ uv)[free]
         uv = uv.copy()
-        uv[free] += _roughly_solved(inner, diagonal, residual[free])
+        for axis in (0, 1):
+            uv[free, axis] += _roughly_solved(inner, diagonal, residual[:, axis])
     return _drawn_back(V, F, uv, before)
 
 
@@ -98,32 +100,39 @@ def _cotangents(corners: Floats) -> Floats:
     return np.where(cross > 0, -dot / np.maximum(cross, 1e-300), 0.0) / 2
 
 
-def _pull(F: Ints, uv: Floats, corners: Floats, weight: Floats) -> Floats:
-    """Give the right side of ARAP's equations: every face turned to where it fits best, (n, 2)."""
-    side = weight[..., None] * (np.roll(corners, -1, 1) - corners)
-    now = np.roll(uv[F], -1, 1) - uv[F]
-    a = np.einsum("fkd,fkd->f", side, now)
-    b = np.einsum("fk,fk->f", side[..., 0], now[..., 1]) - np.einsum("fk,fk->f", side[..., 1], now[..., 0])
-    norm = np.maximum(np.hypot(a, b), 1e-300)
-    c, s = (a / norm)[:, None], (b / norm)[:, None]
-    turned = np.stack([c * side[..., 0] - s * side[..., 1], s * side[..., 0] + c * side[..., 1]], 2)
-    force = np.roll(turned, 1, 1) - turned
-    return np.stack([np.bincount(F.ravel(), force[..., d].ravel(), len(uv)) for d in range(2)], 1)
+def _pull(F: Ints, uv: Floats, sides: Floats) -> Floats:
+    """Give the right side of ARAP's equations: every face turned to where it fits best, (n, 2).
+
+    Of the faces laid flat, side k runs from corner k; (3, 2, m), weighted.
+    """
+    force = np.empty((2, len(F), 3))
+    for some, p, q in face_sides(uv, F):
+        own = sides[..., some]
+        now = [p, [y - x for x, y in zip(p, q, strict=True)], [-x for x in q]]
+        a = sum(x * u + y * v for (x, y), (u, v) in zip(own, now, strict=True))
+        b = sum(x * v - y * u for (x, y), (u, v) in zip(own, now, strict=True))
+        norm = np.maximum(np.hypot(a, b), 1e-300)
+        c, s = a / norm, b / norm
+        turned = [(c * x - s * y, s * x + c * y) for x, y in own]
+        for k in range(3):
+            for axis in (0, 1):
+                force[axis, some, k] = turned[k - 1][axis] - turned[k][axis]
+    return np.stack([sums(F.ravel(), one.ravel(), len(uv)) for one in force], 1)
 
 
 def _roughly_solved(A: Any, diagonal: Floats, b: Floats) -> Floats:
-    """Run a few steps of preconditioned conjugate gradients from zero, on both columns at once."""
+    """Run a few steps of preconditioned conjugate gradients from zero."""
     x, r = np.zeros_like(b), b.copy()
     z = r / diagonal
-    p, rz = z.copy(), (r * z).sum(0)
+    p, rz = z.copy(), (r * z).sum()
     for _ in range(_SWEEPS):
         q = A @ p
-        alpha = rz / np.maximum((p * q).sum(0), 1e-300)
+        alpha = rz / max((p * q).sum(), 1e-300)
         x += alpha * p
         r -= alpha * q
         z = r / diagonal
-        rz, old = (r * z).sum(0), rz
-        p = z + rz / np.maximum(old, 1e-300) * p
+        rz, old = (r * z).sum(), rz
+        p = z + rz / max(old, 1e-300) * p
     return x
 
 
