@@ -17,7 +17,8 @@ from typing import IO, Any, cast
 __all__ = ["Background"]
 
 _SERVE = "import sys; sys.path.insert(0, sys.argv[1]); from meshjig.background import _serve; _serve()"
-_GENTLE = 10  # niceness of what must not slow the caller down
+_PROTOCOL = pickle.HIGHEST_PROTOCOL
+_GENTLE = 19  # niceness of what must not slow the caller down
 _PATIENCE = 10.0  # s; a child that hears nothing for so long ends itself
 
 
@@ -50,7 +51,9 @@ class Background:
             self._child = _idle_child(gently) or _Child(gently)
         except OSError:
             return
-        self._thread = threading.Thread(target=self._talk, args=[self._child], daemon=True)
+        # pickled here: a thread would wait for the caller's long calls of native code again and again
+        question = pickle.dumps((function.__module__, function.__qualname__, arguments), _PROTOCOL)
+        self._thread = threading.Thread(target=self._talk, args=[self._child, question], daemon=True)
         self._thread.start()
 
     def result(self) -> Any:
@@ -67,9 +70,9 @@ class Background:
             self._child.kill()
             self._thread.join()
 
-    def _talk(self, child: _Child) -> None:
+    def _talk(self, child: _Child, question: bytes) -> None:
         try:
-            answer = child.ask((self._function.__module__, self._function.__qualname__, self._arguments))
+            answer = child.ask(question)
         except (OSError, EOFError, pickle.PickleError):
             child.kill()
             child.close()
@@ -92,9 +95,9 @@ class _Child:
         self._questions = cast(IO[bytes], self._process.stdin)
         self._answers = cast(IO[bytes], self._process.stdout)
 
-    def ask(self, question: Any) -> Any:
+    def ask(self, question: bytes) -> Any:
         """Give the answer; OSError or EOFError when the child has failed."""
-        pickle.dump(question, self._questions, pickle.HIGHEST_PROTOCOL)
+        self._questions.write(question)
         self._questions.flush()
         return pickle.load(self._answers)
 
@@ -151,5 +154,5 @@ def _serve() -> None:
             return
         patience.cancel()
         answer = getattr(importlib.import_module(module), name)(*arguments)
-        pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
+        answers.write(pickle.dumps(answer, _PROTOCOL))
         answers.flush()
