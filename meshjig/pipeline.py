@@ -9,6 +9,7 @@ import numpy as np
 from meshjig.background import Background
 from meshjig.celled import cell_layout
 from meshjig.charting import chart, clean_scan
+from meshjig.charts import MappedAtlas
 from meshjig.check import touched_pieces
 from meshjig.check.interlock import interlock
 from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
@@ -23,9 +24,10 @@ from meshjig.output.colours import colours
 from meshjig.output.estimate import estimate
 from meshjig.progress import Progress, Stages, peak_memory_mb
 from meshjig.puzzle import Curves, Piece, Puzzle
+from meshjig.refinement import refine_atlas, refine_long_edges
 from meshjig.refusals import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.report import assemble_report
-from meshjig.scan import refine_long_edges, self_crossings
+from meshjig.scan import self_crossings
 from meshjig.solid import Shell, kerf, shell
 from meshjig.tiled import tile_layout
 from meshjig.topology import border_halfedges, components
@@ -34,6 +36,7 @@ from meshjig.unique import LEAST_DIFFERENCE, clashes
 
 __all__ = ["make_puzzle"]
 
+MUCH_FINER = 1.1  # times as many faces: more freedom for charts
 WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
 
 
@@ -66,7 +69,8 @@ def make_puzzle(
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
-        surface = _with_short_edges(scan.mesh, options)
+        longest = _longest_edge(scan.mesh, options)
+        surface = Mesh(*refine_long_edges(scan.mesh.V, scan.mesh.F, longest))
     small = len(surface.F) < WORTH_A_CHILD
     beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
     try:
@@ -74,7 +78,7 @@ def make_puzzle(
             layout = cell_layout(surface, options, stages)
         else:
             with stages("charts"):
-                atlas = chart(Scan(surface, scan.source, scan.to_source), options)
+                atlas = _atlas(scan, surface, longest, options)
             layout = tile_layout(atlas, options, stages)
         _refuse_a_hollow_piece(layout)
         with stages("clearance"):
@@ -148,13 +152,23 @@ def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, 
     return sheets, None if pairs is None else len(pairs), none if crossing is None else crossing
 
 
-def _with_short_edges(mesh: Mesh, options: Options) -> Mesh:
-    """Split edges longer than a quarter of a tile: no tile may fall inside a single face."""
+def _longest_edge(mesh: Mesh, options: Options) -> float:
+    """Give a quarter of a tile, mm: no tile may fall inside a single face."""
     area = float(face_areas(mesh.V, mesh.F).sum())
     tile = options.piece_size or float(np.sqrt(area / options.pieces))
     refuse_too_small_pieces(tile, area, options)
     refuse_small_plate(tile, options)
-    return Mesh(*refine_long_edges(mesh.V, mesh.F, tile / 4))
+    return tile / 4
+
+
+def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> MappedAtlas:
+    """Chart the surface; before it was refined, where that makes little difference to its faces.
+
+    So a few long edges don't change the charts that `info` has shown.
+    """
+    if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
+        return chart(Scan(surface, scan.source, scan.to_source), options)
+    return refine_atlas(chart(scan, options), longest)
 
 
 def _refuse_a_hollow_piece(layout: Layout) -> None:

@@ -8,7 +8,7 @@ from meshjig.check.interlock import interlock
 from meshjig.measure import face_areas, sums
 from meshjig.options import Options
 from meshjig.progress import Stages
-from meshjig.scan import refine_long_edges
+from meshjig.refinement import refine_long_edges
 from meshjig.topology import is_disc
 from meshjig.types import Mesh
 from meshjig.unique import clashes

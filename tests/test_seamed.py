@@ -12,7 +12,7 @@ from meshjig.cut import cut_curves, fold
 from meshjig.measure import face_areas
 from meshjig.options import Options
 from meshjig.progress import Stages
-from meshjig.scan import refine_long_edges
+from meshjig.refinement import refine_long_edges
 from meshjig.tiled import tile_layout
 from meshjig.topology import border_halfedges, edge_keys, edges, is_disc, next_halfedge
 from meshjig.types import Mesh, Scan

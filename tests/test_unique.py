@@ -7,7 +7,7 @@ import pytest
 from meshjig.charting import chart, clean_scan
 from meshjig.options import Options
 from meshjig.progress import Stages
-from meshjig.scan import refine_long_edges
+from meshjig.refinement import refine_long_edges
 from meshjig.tiled import tile_layout
 from meshjig.types import Mesh, Scan
 from meshjig.unique import clashes

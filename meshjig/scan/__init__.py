@@ -4,7 +4,7 @@ from meshjig.scan.crossings import self_crossings
 from meshjig.scan.load import load
 from meshjig.scan.read import describe, read_scan
 from meshjig.scan.repair import repair
-from meshjig.scan.resolution import decimate, refine_long_edges
+from meshjig.scan.resolution import decimate
 from meshjig.scan.resurface import resurface
 from meshjig.scan.scale import to_millimetres
 
@@ -13,7 +13,6 @@ __all__ = [
     "describe",
     "load",
     "read_scan",
-    "refine_long_edges",
     "repair",
     "resurface",
     "self_crossings",

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.scan.resolution import refine_long_edges
+from meshjig.refinement import refine_long_edges
 from meshjig.types import Floats, Ints
 
 __all__ = ["CORNERS", "Field", "follow", "signed_field", "steps"]

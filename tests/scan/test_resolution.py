@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from meshjig.measure import face_areas, mesh_volume
-from meshjig.scan import decimate, read_scan, refine_long_edges
+from meshjig.measure import mesh_volume
+from meshjig.scan import decimate, read_scan
 from meshjig.topology import edges
 from tests.meshes import (
     creased_box,
@@ -19,7 +17,6 @@ from tests.meshes import (
     torus,
     two_components,
 )
-from tests.strategies import meshes
 
 
 def topology(F):
@@ -31,27 +28,6 @@ def border(V, F):
     e = edges(F)
     ends = V[e.E[e.n_faces == 1]]
     return ends, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
-
-
-@given(meshes(faces=(100, 600)), st.floats(1.0, 40.0))
-@settings(max_examples=30, deadline=None)
-def test_refining_conforms_and_keeps_the_surface(mesh, length):
-    V, F = refine_long_edges(*mesh, length)
-    ends = V[edges(F).E]
-    assert np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).max() <= length
-    np.testing.assert_array_equal(V[: len(mesh.V)], mesh.V)
-    assert topology(F) == topology(mesh.F)  # a T-junction would open a border and change Euler's number
-    assert border(V, F)[1] == pytest.approx(border(*mesh)[1])
-    assert face_areas(V, F).sum() == pytest.approx(face_areas(*mesh).sum())
-    assert face_areas(V, F).min() > 0
-    assert mesh_volume(V, F) == pytest.approx(mesh_volume(*mesh), rel=1e-9, abs=1e-6)
-
-
-def test_short_edges_are_left_alone():
-    mesh = sphere(500)
-    V, F = refine_long_edges(*mesh, 1000.0)
-    assert V is mesh.V
-    assert F is mesh.F
 
 
 @pytest.mark.parametrize("maker", [sphere, torus, genus2, creased_box, open_cup, cylinder, half_sphere])
