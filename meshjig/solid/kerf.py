@@ -7,19 +7,20 @@ from typing import Any
 import numpy as np
 
 from meshjig.background import Background
-from meshjig.measure import mesh_volume
+from meshjig.measure import mesh_volume, sums
 from meshjig.solid.borders import border_chains
 from meshjig.solid.carve import Carved, carve
-from meshjig.solid.offsets import Offsets, Strip, mitered
-from meshjig.solid.pieces import Solid, solidify
+from meshjig.solid.offsets import Strip, mitered
+from meshjig.solid.pieces import solidify
 from meshjig.solid.wall_edges import split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
 from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["kerf"]
 
-_WORTH_A_CHILD = 60_000  # faces of all solids
-_OWN_SHARE = 0.46  # of the faces; the caller has to prepare them all
+_WORTH_A_CHILD = 20_000  # faces
+_OWN_SHARE = 0.48  # of the faces; the caller also takes what the child has made
+_NO_WALLS = {"segments": 0, "rounded": 0, "hulls": 0}
 
 
 def kerf(
@@ -64,37 +65,52 @@ def kerf(
         at = border_chains(F, piece_of_face).vertex
         D = D.copy()
         D[at] = wall[at]
-    if clearance > 0:
-        V, F, piece_of_face, D = split_bent_walls(V, F, piece_of_face, D, most_bend(clearance))
-    solids, facts = solidify(V, F, piece_of_face, D)
-    chains = border_chains(F, piece_of_face)
-    if clearance == 0 or not len(chains.pair):
-        return [(solid.V, solid.F) for solid in solids], facts | _counts({}, 0.0)
-    strip, line = wall_strip(V, D, F, chains, clearance)
-    offsets = mitered(strip, clearance / 2)
-    pair = chains.pair[line]
-    first = _first_half(solids)
-    small = sum(len(solid.F) for solid in solids) < _WORTH_A_CHILD
-    child = Background(carve, *_part(solids, strip, offsets, pair, ~first), clearance, alone=small)
-    try:
-        carved = carve(*_part(solids, strip, offsets, pair, first), clearance)
-        carved |= child.result()
-    except BaseException:
-        child.cancel()
-        raise
-    volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
-    facts |= _counts(carved, volume)
-    facts |= {
-        "segments": len(pair),
-        "rounded": int(((strip.after >= 0) & (offsets.after < 0)).sum()),
-        "hulls": int(offsets.failed.sum()),
-    }
+    asked = V, F, piece_of_face, D, clearance
+    first = _first_half(V, F, piece_of_face)
+    if clearance == 0 or len(F) < _WORTH_A_CHILD or not first.any():
+        carved, counted = _carved(*asked, np.ones_like(first))
+    else:
+        child = Background(_carved, *asked, ~first)
+        try:
+            carved, counted = _carved(*asked, first)
+            others, more = child.result()
+        except BaseException:
+            child.cancel()
+            raise
+        carved |= others
+        counted = {key: number + more[key] for key, number in counted.items()}
     empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
-    return [carved[i][:2] if i in carved else empty for i in range(len(solids))], facts
+    solids = [carved[i][:2] if i in carved else empty for i in range(len(first))]
+    return solids, counted | _counts(carved)
 
 
-def _counts(carved: dict[int, Carved], volume: float) -> dict[str, Any]:
+def _carved(
+    V: Floats, F: Ints, piece: Ints, D: Floats, clearance: float, chosen: Bools
+) -> tuple[dict[int, Carved], dict[str, int]]:
+    """Make some of the pieces, and count what was met on the way."""
+    if clearance > 0:
+        V, F, piece, D = split_bent_walls(V, F, piece, D, most_bend(clearance))
+    label = np.append(np.where(chosen, np.arange(len(chosen)), -1), -1)[piece]
+    solids, counts = solidify(V, F, label, D)
+    made = {i: solid for i, solid in enumerate(solids) if len(solid.F)}
+    chains = border_chains(F, piece)
+    if clearance == 0 or not len(chains.pair):
+        return {i: Carved(s.V, s.F, 0.0, 0, "clean") for i, s in made.items()}, counts | _NO_WALLS
+    strip, line = wall_strip(V, D, F, chains, clearance)
+    strip, pair = _around(chosen, strip, chains.pair[line])
+    offsets = mitered(strip, clearance / 2)
+    mine = chosen[pair[:, 0]]  # quads between the halves are met twice
+    counts |= {
+        "segments": int(mine.sum()),
+        "rounded": int((mine & (strip.after >= 0) & (offsets.after < 0)).sum()),
+        "hulls": int((mine & offsets.failed).sum()),
+    }
+    return carve(made, strip, offsets, pair, clearance), counts
+
+
+def _counts(carved: dict[int, Carved]) -> dict[str, Any]:
     lost = sum(piece.lost for piece in carved.values())
+    volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
 
     def those(state: str) -> list[int]:
         return sorted(i for i, piece in carved.items() if piece.state == state)
@@ -109,26 +125,22 @@ def _counts(carved: dict[int, Carved], volume: float) -> dict[str, Any]:
     }
 
 
-def _first_half(solids: list[Solid]) -> Bools:
+def _first_half(V: Floats, F: Ints, piece: Ints) -> Bools:
     """Choose pieces on one side of the model, with about half of the faces; (p,) bool."""
-    size = np.array([len(solid.F) for solid in solids])
-    centre = np.array([solid.V.mean(0) if len(solid.V) else np.zeros(3) for solid in solids])
-    order = np.argsort(centre[:, np.ptp(centre, axis=0).argmax()], kind="stable")
-    first = np.zeros(len(solids), bool)
+    n = int(piece.max(initial=-1)) + 1
+    kept = piece >= 0
+    size = np.bincount(piece[kept], minlength=n)
+    middle = V[F[kept]].mean(1)
+    centre = np.stack([sums(piece[kept], x, n) for x in middle.T], 1) / np.maximum(size, 1)[:, None]
+    order = np.argsort(centre[:, np.ptp(centre, axis=0).argmax()], kind="stable") if n else np.arange(0)
+    first = np.zeros(n, bool)
     first[order[np.cumsum(size[order]) <= _OWN_SHARE * size.sum()]] = True
     return first
 
 
-def _part(
-    solids: list[Solid], strip: Strip, offsets: Offsets, pair: Ints, chosen: Bools
-) -> tuple[dict[int, Solid], Strip, Offsets, Ints]:
-    """Give some of the pieces, and the walls around them."""
+def _around(chosen: Bools, strip: Strip, pair: Ints) -> tuple[Strip, Ints]:
+    """Give the walls around some of the pieces, and the pieces on both sides of each quad."""
     kept = np.flatnonzero(chosen[pair].any(1))
     number = np.append(np.full(len(pair), -1), -1)
     number[kept] = np.arange(len(kept))
-    return (
-        {int(i): solids[i] for i in np.flatnonzero(chosen) if len(solids[i].F)},
-        Strip(strip.corners[kept], strip.rising[kept], number[strip.after[kept]]),
-        Offsets(offsets.moves[kept], number[offsets.after[kept]], offsets.failed[kept]),
-        pair[kept],
-    )
+    return Strip(strip.corners[kept], strip.rising[kept], number[strip.after[kept]]), pair[kept]
