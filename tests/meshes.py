@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.topology import edges
+
 __all__ = [
     "Shape",
+    "border",
     "cavity_shell",
     "closed_cylinder",
     "creased_box",
@@ -25,6 +28,7 @@ __all__ = [
     "open_cup",
     "saddle",
     "sphere",
+    "topology",
     "torus",
     "two_components",
 ]
@@ -253,3 +257,16 @@ def _voxels(solid: NDArray[np.bool_], n: int, edge: float) -> Shape:
 def _welded(V: NDArray[np.float64], F: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     _, first, number = np.unique(np.round(V, 6), axis=0, return_index=True, return_inverse=True)
     return V[first], number.ravel()[F].astype(np.int64)
+
+
+def topology(F):
+    """Give Euler's number, and how many edges have more than two faces."""
+    e = edges(F)
+    return len(np.unique(F)) - len(e.E) + len(F), int((e.n_faces > 2).sum())
+
+
+def border(V, F):
+    """Give the ends of the edges on the border, (k, 2, 3), and how long they are together."""
+    e = edges(F)
+    ends = V[e.E[e.n_faces == 1]]
+    return ends, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()

@@ -11,19 +11,8 @@ from meshjig.charts.quality import quality
 from meshjig.measure import barycentric, face_areas, interpolate, mesh_volume
 from meshjig.refinement import refine_atlas, refine_long_edges
 from meshjig.topology import edges
-from tests.meshes import cylinder, half_sphere, sphere, torus, two_components
+from tests.meshes import border, cylinder, half_sphere, sphere, topology, torus, two_components
 from tests.strategies import meshes
-
-
-def topology(F):
-    e = edges(F)
-    return len(np.unique(F)) - len(e.E) + len(F), int((e.n_faces > 2).sum())
-
-
-def border(V, F):
-    e = edges(F)
-    ends = V[e.E[e.n_faces == 1]]
-    return ends, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 
 @given(meshes(faces=(100, 600)), st.floats(1.0, 40.0))

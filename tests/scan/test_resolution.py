@@ -5,8 +5,8 @@ import pytest
 
 from meshjig.measure import mesh_volume
 from meshjig.scan import decimate, read_scan
-from meshjig.topology import edges
 from tests.meshes import (
+    border,
     creased_box,
     cylinder,
     genus2,
@@ -14,20 +14,10 @@ from tests.meshes import (
     noisy,
     open_cup,
     sphere,
+    topology,
     torus,
     two_components,
 )
-
-
-def topology(F):
-    e = edges(F)
-    return len(np.unique(F)) - len(e.E) + len(F), int((e.n_faces > 2).sum())
-
-
-def border(V, F):
-    e = edges(F)
-    ends = V[e.E[e.n_faces == 1]]
-    return ends, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 
 @pytest.mark.parametrize("maker", [sphere, torus, genus2, creased_box, open_cup, cylinder, half_sphere])
