@@ -97,7 +97,7 @@ def make_puzzle(
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [names[i] for i in sorted(touched)]
-        neighbours = locks.pairs[locks.faces_other(options.clearance)]
+        neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
         solids, verdict, mended = judged(solids, names, neighbours, options, exempt)
         solid_facts["dented"] = mended["dented"]
         solid_facts["discarded_volume_share"] += mended["discarded"]

@@ -78,7 +78,7 @@ def assemble_report(
         "cut": cut.facts,
         "stitching": layout.stitching.facts,
         "solid": solid_facts,
-        "pieces": _pieces(n, area, solids, locks, options.clearance),
+        "pieces": _pieces(n, area, solids, locks, options),
         "checks": checks,
         "names": verdict.named
         | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(least_neck)]},
@@ -95,11 +95,11 @@ def _broken_as_a_whole(checks: dict[str, Any]) -> dict[str, list[str]]:
 
 
 def _pieces(
-    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock, clearance: float
+    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock, options: Options
 ) -> list[dict[str, Any]]:
     neighbours: list[list[int]] = [[] for _ in range(n)]
     knobs = np.zeros(n, np.int64)
-    facing = locks.faces_other(clearance)
+    facing = locks.faces_other(options.clearance, options.min_wall)
     pairs, counts = locks.pairs[facing].tolist(), locks.knobs_of_pair[facing].tolist()
     for (a, b), count in zip(pairs, counts, strict=True):
         neighbours[a].append(b + 1)

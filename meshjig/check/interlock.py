@@ -50,18 +50,19 @@ class Interlock:
         total = float(self.length.sum())
         return float(self.length[self.locked(clearance)].sum()) / total if total > 0 else None
 
-    def faces_other(self, clearance: float) -> Bools:
+    def faces_other(self, clearance: float, min_wall: float = 0.0) -> Bools:
         """Tell which pairs face each other over a gap, (b,); others share no more than a corner.
 
-        A border of a few clearances is swallowed by the gaps of the pieces at its ends, and one that lies
-        between two others all along by the gaps of those.
+        A border of a few clearances is swallowed by the gaps of the pieces at its ends. One that lies
+        between two others all along is so by the gaps of those, or else what they leave of the pieces there
+        is no wall that the process can make.
         """
         facing = self.length > TOUCH * clearance
         short = np.flatnonzero(facing & (self.length < SHORT * clearance))
         if not len(short):
             return facing
         points, of_pair = _points_along(self.border, self.pair_of_border, clearance / 4)
-        reach = TOUCH / 2 * clearance
+        reach = max(TOUCH * clearance, min_wall) / 2
         for k in short.tolist():
             own = points[of_pair == k]
             near = (points >= own.min(0) - reach).all(1) & (points <= own.max(0) + reach).all(1)

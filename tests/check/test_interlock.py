@@ -81,11 +81,15 @@ def strip(width, length=1.5):
     return replace(cut, V=V), piece
 
 
-@pytest.mark.parametrize(("width", "faces"), [(0.5, False), (5.0, True)], ids=["a sliver", "wide"])
-def test_pieces_that_meet_in_a_sliver_between_others_do_not_face_each_other(width, faces):
+@pytest.mark.parametrize(
+    ("width", "min_wall", "faces"),
+    [(0.5, 0.0, False), (1.2, 0.0, True), (1.2, 1.5, False), (5.0, 1.5, True)],
+    ids=["a sliver", "thin", "too thin to be made", "wide"],
+)
+def test_pieces_that_meet_in_a_sliver_between_others_do_not_face_each_other(width, min_wall, faces):
     cut, piece = strip(width)
     none = np.zeros((0, 2), np.int64)
     found = interlock(cut, Knobs(none, none, none), piece)
-    pairs = found.pairs[found.faces_other(0.3)].tolist()
+    pairs = found.pairs[found.faces_other(0.3, min_wall)].tolist()
     assert ([0, 1] in pairs) == faces
     assert [0, 2] in pairs
