@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import importlib
+import io
 import os
 import pickle
 import subprocess
@@ -48,11 +49,11 @@ class Background:
         if alone or (os.cpu_count() or 1) < 2 or not sys.executable:
             return
         try:
+            # pickled here: a thread would wait for the caller's long calls of native code again and again
+            question = pickle.dumps((function.__module__, function.__qualname__, arguments), _PROTOCOL)
             self._child = _idle_child(gently) or _Child(gently)
-        except OSError:
+        except (OSError, pickle.PickleError, TypeError, AttributeError):
             return
-        # pickled here: a thread would wait for the caller's long calls of native code again and again
-        question = pickle.dumps((function.__module__, function.__qualname__, arguments), _PROTOCOL)
         self._thread = threading.Thread(target=self._talk, args=[self._child, question], daemon=True)
         self._thread.start()
 
@@ -66,17 +67,20 @@ class Background:
 
     def cancel(self) -> None:
         """End the child; nobody will ask for the result."""
-        if self._child is not None and self._thread is not None and not self._answer:
-            self._child.kill()
-            self._thread.join()
+        if self._child is None or self._thread is None:
+            return
+        with _taking:
+            if not self._answer:
+                self._child.kill()
+        self._thread.join()
 
     def _talk(self, child: _Child, question: bytes) -> None:
         try:
             answer = child.ask(question)
-        except (OSError, EOFError, pickle.PickleError):
-            child.kill()
-            child.close()
-        else:
+        except Exception:  # whatever a child that fails leaves behind; the caller does the work then
+            child.end()
+            return
+        with _taking:
             self._answer.append(answer)
             _idle.append(child)
 
@@ -108,7 +112,8 @@ class _Child:
         self._process.kill()
         self._process.wait()
 
-    def close(self) -> None:
+    def end(self) -> None:
+        self.kill()
         for pipe in (self._questions, self._answers):
             with contextlib.suppress(OSError):
                 pipe.close()
@@ -121,13 +126,14 @@ _taking = threading.Lock()
 def _idle_child(gently: bool) -> _Child | None:
     """Take a child that waits, if there is one of this process's."""
     with _taking:
-        waiting = [child for child in _idle if child.gently == gently and child.owner == os.getpid()]
-        for child in waiting:
-            _idle.remove(child)
-            if child.alive():
-                return child
-            child.close()
-    return None
+        own = [child for child in _idle if child.owner == os.getpid()]
+        alive = [child for child in own if child.alive()]
+        for child in own:
+            if child not in alive:
+                child.end()
+        fitting = [child for child in alive if child.gently == gently]
+        _idle[:] = [child for child in alive if child not in fitting[-1:]]
+        return fitting[-1] if fitting else None
 
 
 @atexit.register
@@ -144,15 +150,16 @@ def _serve() -> None:
             os.nice(niceness)
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever native code prints
+    questions = cast(io.BufferedReader, sys.stdin.buffer)
     while True:
         patience = threading.Timer(_PATIENCE, os._exit, [0])
         patience.daemon = True
         patience.start()
-        try:
-            module, name, arguments = pickle.load(sys.stdin.buffer)
-        except EOFError:
+        if not questions.peek(1):
             return
         patience.cancel()
+        module, name, arguments = pickle.load(questions)
         answer = getattr(importlib.import_module(module), name)(*arguments)
         answers.write(pickle.dumps(answer, _PROTOCOL))
         answers.flush()
+        del arguments, answer

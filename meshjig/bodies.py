@@ -50,17 +50,25 @@ def largest(solid: Body) -> tuple[Body, float, int]:
 
 
 @functools.cache
-def share_cores() -> None:
-    """Let manifold3d use half of the cores in this process, for good; the others are a child's.
+def share_cores(second: bool = False) -> None:
+    """Let manifold3d use half of the cores in this process, for good: another one has the others.
 
-    Its threads are counted when it first needs them, from the cores that are open to the caller then.
+    Its threads are made when it first needs them, for the cores that are open to the caller then.
+
+    Parameters
+    ----------
+    second : bool, take the other half
     """
     import manifold3d
 
     if not hasattr(os, "sched_setaffinity"):
         return
     cores = sorted(os.sched_getaffinity(0))
-    os.sched_setaffinity(0, cores[: max(1, len(cores) // 2)])
+    half = max(1, len(cores) // 2)
+    try:
+        os.sched_setaffinity(0, cores[-half:] if second else cores[:half])
+    except OSError:  # not allowed in here
+        return
     try:
         manifold3d.Manifold.sphere(1.0, 8).num_tri()
     finally:

@@ -163,7 +163,7 @@ class Carrier:
         """Place corners where their leaf says, and corners of several leaves in the middle."""
         n = int(corners.max()) + 1
         total, count = np.zeros((n, 2)), np.zeros(n)
-        number = np.empty(len(self._G), np.int64)
+        number = np.full(len(self._G), -1)
         number[chart.faces] = np.arange(len(chart.faces))
         for leaf in np.unique(self._light_leaf[chart.faces]):
             own = self.leaf[faces] == leaf
@@ -171,8 +171,9 @@ class Carrier:
             row = np.empty(len(kept), np.int64)
             row[G] = corners[own]
             face, bary = self._places.face[kept], self._places.bary[kept]
-            strange = np.flatnonzero(self._light_leaf[face] != leaf)  # nearer to another leaf
-            light = np.flatnonzero(self._light_leaf == leaf)
+            light = chart.faces[self._light_leaf[chart.faces] == leaf]
+            other = (self._light_leaf[face] != leaf) | (number[face] < 0)
+            strange = np.flatnonzero(other)  # nearer to another leaf
             if len(strange):
                 again = nearest(self._V[kept[strange]], self._W, self._G[light])
                 face[strange], bary[strange] = light[again.face], again.bary

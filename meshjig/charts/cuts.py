@@ -35,7 +35,7 @@ def cut_faces(F: Ints, e: Edges, cut: Bools, faces: Ints) -> Ints:
 
     Parameters
     ----------
-    F : (m, 3) int64, manifold, oriented
+    F : (m, 3) int64, manifold, oriented; a vertex inside has one fan of faces
     e : Edges, of F
     cut : (e,) bool; all edges where the faces meet others are cut
     faces : (k,) int64
@@ -44,10 +44,12 @@ def cut_faces(F: Ints, e: Edges, cut: Bools, faces: Ints) -> Ints:
     -------
     corners : (k, 3) int64, numbers of copies, 0 to n - 1; faces hang together over uncut edges
     """
-    vertex = F[faces].ravel()
+    vertex, corner = F[faces].ravel(), (3 * faces[:, None] + np.arange(3)).ravel()
     whole = np.zeros(int(e.E.max(initial=-1)) + 1, bool)  # vertices that stay one
     whole[vertex] = True
     whole[e.E[cut].ravel()] = False
+    begins = np.bincount(vertex[e.twin[corner] == corner], minlength=len(whole))
+    whole &= begins <= 1  # where borders touch each other, several fans meet
     copy = (np.cumsum(whole) - 1)[vertex]
     split = np.flatnonzero(~whole[vertex])
     h = 3 * faces[split // 3] + split % 3

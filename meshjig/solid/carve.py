@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from meshjig.bodies import Body, arrays, body, largest, share_cores, sound
+from meshjig.bodies import Body, arrays, body, largest, sound
 from meshjig.solid.crossings import crossing_pairs
 from meshjig.solid.cutters import cutters, round_cutters
 from meshjig.solid.mend import mended
@@ -51,7 +51,6 @@ def carve(
     A piece that crosses itself afterwards is tried again with its slabs taken apart where they cross
     themselves, then with the folds of the solid itself mended.
     """
-    share_cores()
     made = cutters(strip, offsets, clearance / 2)
     of_pair: dict[tuple[int, int], list[tuple[Ints, Body]]] = {}
     for quads, cutter in made:

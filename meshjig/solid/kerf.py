@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.background import Background
+from meshjig.bodies import share_cores
 from meshjig.measure import mesh_volume, sums
 from meshjig.solid.borders import border_chains
 from meshjig.solid.carve import Carved, carve
@@ -70,8 +71,9 @@ def kerf(
     if clearance == 0 or len(F) < _WORTH_A_CHILD or not first.any():
         carved, counted = _carved(*asked, np.ones_like(first))
     else:
-        child = Background(_carved, *asked, ~first)
+        child = Background(_carved_beside, *asked, ~first)
         try:
+            share_cores()
             carved, counted = _carved(*asked, first)
             others, more = child.result()
         except BaseException:
@@ -82,6 +84,12 @@ def kerf(
     empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
     solids = [carved[i][:2] if i in carved else empty for i in range(len(first))]
     return solids, counted | _counts(carved)
+
+
+def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], dict[str, int]]:
+    """Make some of the pieces while the caller makes the others."""
+    share_cores(second=True)
+    return _carved(*asked)
 
 
 def _carved(

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.cuts import chains, cut_open
+from meshjig.charts.cuts import chains, cut_faces, cut_open
 from meshjig.topology import components, edges
 from tests.meshes import cylinder, disc, torus
 
@@ -47,3 +47,10 @@ def test_nothing_cut_is_nothing_changed():
     corners, origin = cut_open(F, e, np.zeros(len(e.E), bool))
     assert len(origin) == F.max() + 1
     assert (origin[corners] == F).all()
+
+
+def test_faces_that_only_touch_at_a_point_have_corners_of_their_own():
+    F = np.array([[0, 1, 2], [0, 3, 4]])
+    e = edges(F)
+    corners = cut_faces(F, e, np.zeros(len(e.E), bool), np.arange(2))
+    assert len(np.unique(corners)) == 6

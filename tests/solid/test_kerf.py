@@ -1,3 +1,5 @@
+import sys
+
 import numpy as np
 import pytest
 import trimesh
@@ -156,3 +158,20 @@ def test_a_sound_solid_needs_no_mending():
     (solid,) = solidify(V, F, np.zeros(len(F), np.int64), -0.04 * V)[0]
     assert mended(solid, 1) is None
     assert body(solid.V, solid.F).volume() == pytest.approx(trimesh.Trimesh(solid.V, solid.F).volume)
+
+
+@pytest.mark.parametrize("name", ["sphere", "cup"])
+def test_two_processes_make_what_one_makes(name, monkeypatch):
+    V, F = SHAPES[name]
+    label = one_part_each(F, waves(V, F, 12))
+    label[label == 3] = -1
+    D, _ = displacement(V, F, 2.0)
+    module = sys.modules["meshjig.solid.kerf"]
+    monkeypatch.setattr(module, "_WORTH_A_CHILD", np.inf)
+    alone, facts = kerf(V, F, label, D, 0.2)
+    monkeypatch.setattr(module, "_WORTH_A_CHILD", 0)
+    together, told = kerf(V, F, label, D, 0.2)
+    assert told == facts
+    for (X, G), (Y, H) in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(X, Y)
+        np.testing.assert_array_equal(G, H)
