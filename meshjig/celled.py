@@ -8,6 +8,7 @@ import numpy as np
 
 from meshjig.cells import CellMesh, KnobLayout, cell_atlas, grow_cells, knob_outlines
 from meshjig.cut import overlay
+from meshjig.errors import CutError
 from meshjig.layout import Layout
 from meshjig.measure import face_areas
 from meshjig.options import Options
@@ -43,7 +44,11 @@ def cell_layout(surface: Mesh, options: Options, stages: Stages) -> Layout:
     cells, atlas, knobs = _grown(surface, n, size, options, stages, None, None)
     for _ in range(PASSES - 1 if n < MANY else 0):
         wanted = _wanted_areas(cells, knobs)
-        cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
+        try:
+            cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
+        except CutError as error:  # rings, around holes; those before were less even, but whole
+            log.info("cells of even areas were not found: %s", error)
+            break
     log.info("cells: %s; knobs: %s", cells.facts, knobs.facts)
     layout = _cut(cells, atlas, knobs, area / n, options, stages)
     return _without_clashes(layout, cells, atlas, size, options, stages) if options.unique else layout

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from meshjig.celled import cell_layout
+from meshjig.cells import grow_cells
 from meshjig.check.interlock import interlock
+from meshjig.errors import CutError
 from meshjig.measure import face_areas, sums
 from meshjig.options import Options
 from meshjig.progress import Stages
@@ -50,6 +52,21 @@ def test_cut_points_lie_on_the_surface_that_was_given():
     off = layout.cut.V[layout.cut.F].mean(1) - V[F[face, 0]]
     height = np.einsum("ij,ij->i", off, N[face]) / np.linalg.norm(N[face], axis=1)
     assert np.abs(height).max() < 1e-6
+
+
+def test_cells_that_become_rings_on_the_way_to_even_areas_leave_those_before(monkeypatch):
+    asked = []
+
+    def grow(*surface, start, **given):
+        asked.append(start)
+        if start is not None:
+            raise CutError("a ring")
+        return grow_cells(*surface, start=start, **given)
+
+    monkeypatch.setattr("meshjig.celled.grow_cells", grow)
+    layout = laid_out(sphere)
+    assert len(asked) == 2
+    assert layout.stitching.n_pieces == pytest.approx(24, abs=1)
 
 
 def test_the_same_seed_gives_the_same_cells_and_another_one_others():
