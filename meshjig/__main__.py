@@ -1,5 +1,22 @@
-"""Run the command line by ``python -m meshjig``."""
+"""Run the command line: by the script ``meshjig``, or by ``python -m meshjig``."""
 
-from meshjig.cli import main
+import os
+import sys
+from typing import NoReturn
 
-main()
+__all__ = ["main"]
+
+
+def main() -> NoReturn:
+    """Run the command line."""
+    if hasattr(os, "posix_spawn") and sys.executable:
+        from meshjig.front import run_in_front
+
+        run_in_front()
+    from meshjig.cli import run
+
+    run(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    main()

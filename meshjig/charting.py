@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from meshjig.charts import MappedAtlas, build_atlas
 from meshjig.measure import face_areas
 from meshjig.options import Options
-from meshjig.output.folder import check_target, replace_folder
+from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import write_report
 from meshjig.report import meshjig_version
 from meshjig.scan import read_scan
@@ -62,12 +63,13 @@ def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> 
     -------
     dict, the atlas' facts
     """
-    if folder is not None:
-        check_target(folder, KIND)
-    made = atlas(mesh, options=options)
-    if folder is not None:
-        from meshjig.output.atlas_sheet import draw_atlas
+    if folder is None:
+        return atlas(mesh, options=options).facts
+    from meshjig.output.atlas_sheet import draw_atlas
 
+    inputs = [mesh] if isinstance(mesh, str | os.PathLike) else []
+    with reserve_folder(folder, KIND, inputs):
+        made = atlas(mesh, options=options)
         with replace_folder(folder, KIND) as scratch:
             draw_atlas(made, scratch)
             report = {"meshjig": meshjig_version(), "kind": KIND, "charts": made.facts}

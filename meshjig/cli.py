@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+import faulthandler
+import io
 import json
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 
 from meshjig.config import read_options
 from meshjig.errors import OptionError
 from meshjig.flags import takes_options
+from meshjig.runtime.parent import end_with_parent
+from meshjig.runtime.read_ahead import ReadAhead
+from meshjig.runtime.worker_words import tell, tell_through
 from meshjig.terminal import (
     BROKEN_PROMISE,
-    INTERRUPTED,
     USAGE,
     as_lines,
-    leave_interrupted,
-    listen_for_interrupts,
+    emit,
     progress_bar,
     say,
     sentences,
@@ -25,7 +32,7 @@ from meshjig.terminal import (
     tell_notes,
 )
 
-__all__ = ["app", "main"]
+__all__ = ["app", "run", "worker"]
 
 app = typer.Typer(
     name="meshjig",
@@ -52,10 +59,10 @@ def _root(
     if show_version:
         from meshjig.report import meshjig_version
 
-        print(meshjig_version())
+        emit(meshjig_version())
         raise typer.Exit
     if context.invoked_subcommand is None:
-        print(context.get_help())
+        emit(context.get_help())
 
 
 @app.command()
@@ -81,23 +88,25 @@ def make(
             from meshjig.plan import plan_puzzle
 
             plan = plan_puzzle(mesh, options)
-            print(json.dumps(plan, indent=2) if as_json else as_lines(plan))
+            emit(json.dumps(plan, indent=2) if as_json else as_lines(plan))
             raise typer.Exit
-        from meshjig.output.folder import check_target
-        from meshjig.pipeline import make_puzzle
+        from meshjig.output.folder import reserve_folder
 
         target = output or Path(f"{Path(mesh).stem}-jigsaw")
-        check_target(target)
-        with progress_bar(quiet or verbose) as progress:
-            puzzle = make_puzzle(mesh, progress=progress, options=options)
+        inputs: list[str | Path] = [mesh, *([config] if config else [])]
+        with reserve_folder(target, inputs=inputs), progress_bar(quiet or verbose) as progress:
+            scan = ReadAhead(mesh)
+            from meshjig.pipeline import make_puzzle
+
+            puzzle = make_puzzle(scan, progress=progress, options=options)
             progress("write", "start")
             puzzle.save(target)
-        if as_json:
-            print((target / "report.json").read_text(encoding="utf-8"))
         if not quiet:
             n = len(puzzle.pieces)
             say(f"{n} piece{'s' if n > 1 else ''} in {target}")
             tell_notes(puzzle.report)
+        if as_json:
+            emit((target / "report.json").read_text(encoding="utf-8"))
     if not puzzle.report["ok"]:
         tell_broken(puzzle.report["failures"])
         raise typer.Exit(BROKEN_PROMISE)
@@ -125,10 +134,11 @@ def info(
 
             facts = describe_charts(mesh, options, output)
         else:
+            scan = ReadAhead(mesh)
             from meshjig.scan import describe
 
-            facts = describe(mesh, size=options.size, faces=options.faces, cavities=options.cavities)
-        print(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+            facts = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
+        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 @app.command()
@@ -149,7 +159,7 @@ def check(
 
         result = rejudge(paths, flags)
         shown = result["checks"] | {key: result[key] for key in ("names", "core") if key in result}
-        print(json.dumps(result, indent=2) if as_json else as_lines(shown))
+        emit(json.dumps(result, indent=2) if as_json else as_lines(shown))
     if not result["ok"]:
         tell_broken(result["failures"])
         raise typer.Exit(BROKEN_PROMISE)
@@ -173,7 +183,7 @@ def coupon(
 
         report = save_coupon(output, read_options(config, flags))
         if as_json:
-            print((output / "report.json").read_text(encoding="utf-8"))
+            emit((output / "report.json").read_text(encoding="utf-8"))
         elif not quiet:
             say(f"{len(report['pieces'])} tiles in {output}")
             say(report["how_to"])
@@ -192,7 +202,7 @@ def view(
 
         page = open_viewer(directory)
         if as_json:
-            print(json.dumps({"viewer": str(page)}))
+            emit(json.dumps({"viewer": str(page)}))
 
 
 @app.command()
@@ -210,7 +220,7 @@ def tiles(
 
         if name is None:
             known = dict(family_names())
-            print(json.dumps(known, indent=2) if as_json else as_lines(known))
+            emit(json.dumps(known, indent=2) if as_json else as_lines(known))
             return
         try:
             unit = get_family(name, seed)
@@ -218,23 +228,39 @@ def tiles(
             say(f"meshjig: {error}")
             raise typer.Exit(USAGE) from None
         if svg is not None:
-            from meshjig.output.folder import write_text
+            from meshjig.output.folder.text_file import write_svg_file
             from meshjig.tiling.draw import draw_svg
 
-            write_text(svg, draw_svg(unit, decor=get_decor(name)))
+            write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
         facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
-        print(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
-def main() -> None:
-    """Run the command line."""
+def run(words: Sequence[str]) -> NoReturn:
+    """Run the command line, and end the process.
+
+    It ends at once: whatever libraries would still do on their way out can only fail by now.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    if {"-v", "--verbose"} & set(words):
+        faulthandler.enable()
+    code: Any = 0
     try:
-        listen_for_interrupts()
-        app()
-    except KeyboardInterrupt:
-        say("meshjig: interrupted; nothing was written")
-        leave_interrupted()
+        app(args=list(words), prog_name="meshjig")
     except SystemExit as ending:
-        if ending.code == INTERRUPTED:
-            leave_interrupted()
-        raise
+        code = ending.code
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError, AttributeError):
+            stream.flush()
+    code = code if isinstance(code, int) else int(code is not None)
+    tell("ended", code)
+    os._exit(code)
+
+
+def worker(front: str, pipe: str, *words: str) -> NoReturn:
+    """Run the command line as the child of a process that ends it when asked to; see `run_in_front`."""
+    end_with_parent(int(front))
+    tell_through(int(pipe))
+    run(words)

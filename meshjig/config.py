@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -10,9 +11,12 @@ import typer
 
 from meshjig.errors import OptionError
 from meshjig.options import Options
+from meshjig.runtime.bounded import Bounded, Limits, OutOfBounds
 from meshjig.terminal import USAGE, say
 
-__all__ = ["read_options"]
+__all__ = ["parse_toml", "read_options"]
+
+_LIMITS = Limits(memory=200e6, seconds=3.0)
 
 
 def read_options(config: Path | None, flags: dict[str, Any]) -> Options:
@@ -36,8 +40,27 @@ def read_options(config: Path | None, flags: dict[str, Any]) -> Options:
 
 def _read_toml(path: Path) -> dict[str, Any]:
     try:
+        return Bounded(__name__, "parse_toml", str(path), limits=_LIMITS).result()
+    except OutOfBounds as error:
+        raise OptionError(f"config: {path} {error}", hint="look through it") from None
+
+
+def parse_toml(name: str) -> dict[str, Any]:
+    """Parse a TOML file.
+
+    Raises
+    ------
+    OptionError
+        It can't be read, or is no TOML.
+    """
+    path = Path(name)
+    try:
+        if os.path.lexists(path) and not path.is_file():
+            raise OptionError(f"config: {path} is no file")
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except RecursionError:
+        raise OptionError(f"config: {path} is nested too deeply") from None
+    except ValueError as error:
         raise OptionError(f"config: {path} is no valid TOML ({error})") from None

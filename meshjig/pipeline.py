@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.celled import cell_layout
 from meshjig.charting import chart, clean_scan
 from meshjig.charts import MappedAtlas
@@ -27,6 +26,7 @@ from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.refinement import refine_atlas, refine_long_edges
 from meshjig.refusals import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.report import assemble_report
+from meshjig.runtime.background import Background
 from meshjig.scan import self_crossings
 from meshjig.solid import Shell, kerf, shell
 from meshjig.tiled import tile_layout

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from meshjig.errors import InputError
 from meshjig.output import piece as named
-from meshjig.output.read import read_core, read_pieces
+from meshjig.output.puzzle_files import read_puzzle_files
 from meshjig.output.save import save_puzzle
 from meshjig.types import Floats
 
@@ -140,16 +139,12 @@ class Puzzle:
         path = Path(directory) / "report.json"
         if not path.is_file():
             raise InputError(f"{directory} holds no report.json", hint="give a folder that meshjig made")
-        try:
-            report = json.loads(path.read_text(encoding="utf-8"))
-        except ValueError:
-            raise InputError(f"{path} is no valid JSON", hint="make the puzzle again") from None
-        if not isinstance(report, dict) or "meshjig" not in report:
-            raise InputError(f"{path} is no report of meshjig", hint="give a folder that meshjig made")
+        files = read_puzzle_files([directory])
+        report = files.report or {}
         listed = [piece["id"] for piece in report["pieces"]]
         pieces = [
             Piece(name, V, F, GREY, listed[i] if i < len(listed) else i + 1)
-            for i, (name, V, F) in enumerate(read_pieces(directory))
+            for i, (name, V, F) in enumerate(files.pieces)
         ]
-        core = [named.Piece(*part, GREY) for part in read_core(directory)]
+        core = [named.Piece(*part, GREY) for part in files.core]
         return cls(pieces, report, core=core)

@@ -8,7 +8,7 @@ from typing import Any
 
 from meshjig.check import add_failures, judge, judge_core
 from meshjig.output.asked import read_asked, read_missing
-from meshjig.output.read import read_core, read_pieces
+from meshjig.output.puzzle_files import read_puzzle_files
 
 __all__ = ["rejudge"]
 
@@ -34,13 +34,12 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
     InputError
         Nothing found, or a file that can't be read.
     """
-    pieces = read_pieces(list(paths))
-    asked = read_asked(list(paths), [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
+    pieces, core, report = read_puzzle_files(paths)
+    asked = read_asked(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
     verdict = judge(pieces, **asked)
     result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt
-    core = read_core(list(paths))
-    missing = read_missing(list(paths), [name for name, _, _ in (*pieces, *core)])
+    missing = read_missing(report, [name for name, _, _ in (*pieces, *core)])
     if missing:
         result["failures"]["missing"] = missing
     if core:

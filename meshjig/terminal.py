@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import logging
 import os
-import signal
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from types import FrameType
-from typing import Any, NoReturn
+from contextlib import contextmanager, suppress
+from typing import Any
 
 import typer
 
-from meshjig.errors import MeshjigError
+from meshjig.errors import MeshjigError, OutputError
+from meshjig.runtime.worker_words import folders_written
 
 __all__ = [
     "BROKEN_PROMISE",
@@ -21,8 +20,8 @@ __all__ = [
     "INTERRUPTED",
     "USAGE",
     "as_lines",
-    "leave_interrupted",
-    "listen_for_interrupts",
+    "emit",
+    "outcome",
     "progress_bar",
     "say",
     "sentences",
@@ -32,28 +31,35 @@ __all__ = [
 
 FAILED, USAGE, BROKEN_PROMISE, INTERRUPTED = 1, 2, 3, 130
 
-_interrupted = False
-
-
-def listen_for_interrupts() -> None:
-    """Remember Ctrl-C, or a request to end: a native call or an import may swallow or disguise it."""
-    signal.signal(signal.SIGINT, _on_interrupt)
-    signal.signal(signal.SIGTERM, _on_interrupt)  # from job queues and timeout
-
-
-def leave_interrupted() -> NoReturn:
-    """End the process at once, all cleaned up.
-
-    An interrupt that passed through code run by an extension module would else end it by the signal.
-    """
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(INTERRUPTED)
-
 
 def say(sentence: str) -> None:
-    """Print to standard error."""
-    print(sentence, file=sys.stderr)
+    """Print to standard error, if somebody listens there."""
+    with suppress(OSError, ValueError, AttributeError):  # full or closed; it is no reason to end
+        print(sentence, file=sys.stderr, flush=True)
+
+
+def emit(text: str) -> None:
+    """Print a result to standard output.
+
+    Raises
+    ------
+    OutputError
+        It can't be written. A reader that has gone away is none of our business.
+    """
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        _close_output()
+    except (OSError, ValueError) as error:
+        _close_output()
+        reason = (getattr(error, "strerror", None) or str(error)).lower()
+        raise OutputError(f"standard output can't be written ({reason}); {outcome()}") from None
+
+
+def outcome() -> str:
+    """Say what this run has written, after a sentence on why it ends."""
+    folders = folders_written()
+    return f"{', '.join(folders)} is whole" if folders else "nothing was written"
 
 
 @contextmanager
@@ -68,36 +74,31 @@ def sentences(verbose: bool, quiet: bool) -> Iterator[None]:
         say(f"meshjig: {error}")
         raise typer.Exit(FAILED) from None
     except KeyboardInterrupt:
-        _end_interrupted()
+        say(f"meshjig: interrupted; {outcome()}")
+        raise typer.Exit(INTERRUPTED) from None
     except MemoryError:
         say("meshjig: not enough memory: use fewer faces (--faces)")
         raise typer.Exit(FAILED) from None
     except typer.Exit:
         raise
     except Exception as error:
-        if _interrupted:
-            _end_interrupted()
         if verbose:
             logging.getLogger("meshjig").exception("unexpected failure")
         reason = f"{type(error).__name__}: {error}".splitlines()[0]
-        say(f"meshjig: unexpected failure ({reason}); nothing was written, and this is a bug: -v shows where")
+        say(f"meshjig: unexpected failure ({reason}); {outcome()}, and this is a bug: -v shows where")
         raise typer.Exit(FAILED) from None
 
 
 @contextmanager
 def progress_bar(silent: bool) -> Iterator[Callable[[str, str], None]]:
-    """Give a callback that shows the stage that runs, on standard error, when somebody watches.
-
-    It also ends the run at the next stage after an interrupt that was swallowed.
-    """
-    if silent or not sys.stderr.isatty():
-        yield lambda stage, event: _end_if_interrupted()
+    """Give a callback that shows the stage that runs, on standard error, when somebody watches."""
+    if silent or sys.stderr is None or not sys.stderr.isatty():
+        yield lambda stage, event: None
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
     def show(stage: str, event: str) -> None:
-        _end_if_interrupted()
         if event == "start":
             bar.update(task, description=stage)
 
@@ -119,6 +120,8 @@ def tell_notes(report: dict[str, Any]) -> None:
     made, options = len(report["pieces"]), report["options"]
     if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
         say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit this model")
+    for note in report["input"]["notes"]:
+        say(f"meshjig: note: {note}")
     if report["exempt"]:
         n = len({name for names in report["exempt"].values() for name in names})
         say(f"meshjig: note: the mesh crosses itself, and so do {n} pieces: --resurface rebuilds its surface")
@@ -155,17 +158,9 @@ def as_lines(facts: dict[str, Any], indent: str = "") -> str:
     return "\n".join(lines)
 
 
-def _on_interrupt(number: int, frame: FrameType | None) -> None:
-    global _interrupted
-    _interrupted = True
-    raise KeyboardInterrupt
-
-
-def _end_if_interrupted() -> None:
-    if _interrupted:
-        raise KeyboardInterrupt
-
-
-def _end_interrupted() -> None:
-    say("meshjig: interrupted; nothing was written")
-    raise typer.Exit(INTERRUPTED) from None
+def _close_output() -> None:
+    """Let what is still to be printed go nowhere."""
+    with suppress(OSError, ValueError, AttributeError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)

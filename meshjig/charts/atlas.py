@@ -5,7 +5,6 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.charts.auto import GATE, chart_component
 from meshjig.charts.chart import Chart, Charting
 from meshjig.charts.layout import lay_out
@@ -15,6 +14,7 @@ from meshjig.charts.segment import WORTH_A_CHILD, get_ready
 from meshjig.charts.steady import steady
 from meshjig.charts.unwrap import chart_options
 from meshjig.errors import ChartError, OptionError
+from meshjig.runtime.background import Background
 from meshjig.topology import compact, edges
 from meshjig.types import Atlas, Floats, Ints, Mesh
 

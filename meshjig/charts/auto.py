@@ -4,7 +4,6 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting
 from meshjig.charts.denoise import smoothed
@@ -18,6 +17,7 @@ from meshjig.charts.single import single_chart
 from meshjig.charts.unwrap import unwrap
 from meshjig.charts.zip import zip_charts
 from meshjig.errors import ChartError
+from meshjig.runtime.background import Background
 from meshjig.topology import Edges, edges
 from meshjig.types import Floats, Ints, Mesh
 

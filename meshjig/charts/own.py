@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.charts.carried import carry_over
 from meshjig.charts.chart import Chart, Charting, plain
 from meshjig.charts.flatten import Method, border_is_simple, flat_share, flatten
 from meshjig.charts.rescue import rescue
 from meshjig.charts.segment import WORTH_A_CHILD
+from meshjig.runtime.background import Background
 from meshjig.topology import Edges
 from meshjig.types import Floats, Ints
 

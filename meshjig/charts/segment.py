@@ -5,7 +5,6 @@ import importlib
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.background import Background
 from meshjig.charts.dissolve import dissolve
 from meshjig.charts.dual import Dual, dual
 from meshjig.charts.judge import Judge
@@ -16,6 +15,7 @@ from meshjig.charts.smooth import smooth
 from meshjig.charts.split import split
 from meshjig.charts.stout import stouter
 from meshjig.charts.tidy import tidy
+from meshjig.runtime.background import Background
 
 __all__ = ["WORTH_A_CHILD", "get_ready", "segment"]
 

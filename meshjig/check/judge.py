@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.check.arrays import Piece, boxes, close_boxes, sound_piece
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
 from meshjig.check.crossings import self_intersections
@@ -18,6 +17,7 @@ from meshjig.check.sheets import without_sheets
 from meshjig.check.solids import bodies
 from meshjig.check.thickness import Thickness, measure_thickness
 from meshjig.errors import InputError
+from meshjig.runtime.background import Background
 
 __all__ = ["Verdict", "judge"]
 

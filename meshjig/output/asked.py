@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import os
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from meshjig.errors import InputError
@@ -23,17 +20,14 @@ class Asked(NamedTuple):
     exempt_pieces: tuple[str, ...] = ()  # names of pieces touched by crossings of the model itself
 
 
-def read_asked(
-    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], names: Sequence[str]
-) -> Asked:
+def read_asked(report: Mapping[str, Any] | None, names: Sequence[str]) -> Asked:
     """Read what the report in a folder of pieces says was asked for.
 
     Nothing that was measured is taken from it.
 
     Parameters
     ----------
-    paths : path, or several
-        As for `read_pieces`. Only a single folder that holds a report.json tells anything.
+    report : mapping, or None where there is none
     names : names of the pieces that were read
 
     Returns
@@ -45,11 +39,9 @@ def read_asked(
     InputError
         The report is damaged.
     """
-    path = _report_in(paths)
-    if path is None:
+    if report is None:
         return Asked()
     try:
-        report = json.loads(path.read_text(encoding="utf-8"))
         options = report["options"]
         return Asked(
             _neighbours(report["pieces"], names),
@@ -58,38 +50,28 @@ def read_asked(
             min_wall=options.get("min_wall"),
             exempt_pieces=tuple(report.get("exempt_pieces", ())),
         )
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError):
         raise InputError(
-            f"{path} is no report of meshjig, or damaged", hint="remove it to judge the pieces by themselves"
+            "report.json is no report of meshjig, or damaged",
+            hint="remove it to judge the pieces by themselves",
         ) from None
 
 
-def read_missing(
-    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], names: Sequence[str]
-) -> list[str]:
+def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list[str]:
     """List what the report in a folder of pieces tells of, and no file holds.
 
     Parameters
     ----------
-    paths : path, or several
-        As for `read_pieces`. Only a single folder that holds a report.json tells anything.
+    report : mapping, or None where there is none
     names : names of the pieces, and parts of the core, that were read
     """
-    path = _report_in(paths)
-    if path is None:
+    if report is None:
         return []
-    report = json.loads(path.read_text(encoding="utf-8"))
     listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
     if not set(listed) & set(names):
         return []  # the pieces go by other names
     listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
     return sorted(set(listed) - set(names))
-
-
-def _report_in(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> Path | None:
-    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
-    path = Path(given[0]) / "report.json" if len(given) == 1 else Path()
-    return path if path.is_file() else None
 
 
 def _neighbours(pieces: list[dict[str, Any]], names: Sequence[str]) -> list[tuple[int, int]] | None:

@@ -14,6 +14,9 @@ from meshjig.check.arrays import sound_piece, weld
 from meshjig.errors import InputError
 from meshjig.output.read_3mf import read_3mf
 from meshjig.output.read_parts import is_own_obj, read_glb, read_own_obj
+from meshjig.runtime.bounded import allow_file
+from meshjig.scan.pictures import PictureReader
+from meshjig.scan.reading import check_file, load_by_trimesh
 from meshjig.types import Floats, Ints
 
 __all__ = ["read_core", "read_pieces"]
@@ -78,6 +81,8 @@ def read_core(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) 
 
 def _read(path: Path) -> list[NamedPiece]:
     """Read the pieces of one file."""
+    check_file(path)
+    allow_file(path)
     try:
         if path.suffix.lower() == ".3mf":
             return read_3mf(path)
@@ -151,11 +156,11 @@ def _binary_stl(path: Path) -> tuple[Any, Any]:
 
 
 def _by_trimesh(path: Path) -> tuple[Any, Any]:
-    import trimesh
-
     try:
-        mesh = trimesh.load(path, force="mesh", process=False, skip_materials=True)
+        mesh = load_by_trimesh(path, PictureReader(), force="mesh", skip_materials=True)
         return np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    except InputError:
+        raise
     except Exception as error:  # trimesh's readers raise whatever their parsers do
         raise InputError(f"{path} can't be read as {path.suffix[1:].upper()} ({_one_line(error)})") from None
 

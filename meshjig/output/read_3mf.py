@@ -11,6 +11,7 @@ import numpy as np
 
 from meshjig.check.arrays import sound_piece, weld
 from meshjig.errors import InputError
+from meshjig.scan.three_mf import open_3mf
 from meshjig.types import Floats, Ints
 
 __all__ = ["read_3mf"]
@@ -47,8 +48,7 @@ def read_3mf(path: Path) -> list[tuple[str, Floats, Ints]]:
 
     pieces: list[tuple[str, Floats, Ints]] = []
     try:
-        model = lib3mf.get_wrapper().CreateModel()
-        model.QueryReader("3mf").ReadFromFile(str(path))
+        model = open_3mf(path)
         unit = _MM[model.GetUnit().name]
         items = model.GetBuildItems()
         while items.MoveNext():

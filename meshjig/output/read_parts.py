@@ -9,6 +9,9 @@ import numpy as np
 
 from meshjig.check.arrays import sound_piece, weld
 from meshjig.errors import InputError
+from meshjig.scan.announced import gltf_shortfall
+from meshjig.scan.pictures import PictureReader
+from meshjig.scan.reading import load_by_trimesh
 from meshjig.topology import compact
 from meshjig.types import Floats, Ints
 
@@ -72,10 +75,11 @@ def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
     InputError
         No GLB, or no meshes in it.
     """
-    import trimesh
-
+    shortfall = gltf_shortfall(path)
+    if shortfall:
+        raise InputError(f"{path} is cut off: {shortfall}", hint="export it again")
     try:
-        scene = trimesh.load_scene(path, process=False)
+        scene = load_by_trimesh(path, PictureReader(), force="scene")
         placed = {name: scene.graph[name] for name in sorted(scene.graph.nodes_geometry)}
         parts = [(name, M, scene.geometry[key]) for name, (M, key) in placed.items()]
         arrays = [
@@ -86,6 +90,8 @@ def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
             )
             for name, M, mesh in parts
         ]
+    except InputError:
+        raise
     except Exception as error:  # trimesh's readers raise whatever their parsers do
         raise InputError(
             f"{path} can't be read as GLB ({(str(error) or type(error).__name__).splitlines()[0]})"

@@ -1,16 +1,61 @@
 """The report: what was made, what was measured, as JSON."""
 
+import errno
 import json
 import math
+import stat
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-__all__ = ["report_text", "write_report"]
+from meshjig.errors import InputError
+
+__all__ = ["read_report", "report_file", "report_text", "write_report"]
 
 _DIGITS = 7
+_LARGEST = 16_000_000  # bytes; reports of 10,000 pieces have a third of it
+
+
+def report_file(path: Path) -> str:
+    """Give the text of a report.
+
+    Raises
+    ------
+    OSError
+        It can't be read, or is no regular file.
+    ValueError
+        It is larger than any report, or no text.
+    """
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(errno.EINVAL, "no regular file", str(path))
+    if found.st_size > _LARGEST:
+        raise ValueError("larger than any report")
+    return path.read_text(encoding="utf-8")
+
+
+def read_report(path: Path) -> dict[str, Any]:
+    """Read the report of a folder that meshjig made.
+
+    Raises
+    ------
+    InputError
+        There is none, or it is damaged.
+    """
+    try:
+        report = json.loads(report_file(path))
+    except OSError as error:
+        raise InputError(f"{path} can't be read ({(error.strerror or str(error)).lower()})") from None
+    except (ValueError, RecursionError):
+        raise InputError(f"{path} is no valid JSON, or damaged", hint=_HINT) from None
+    if not isinstance(report, dict) or "meshjig" not in report:
+        raise InputError(f"{path} is no report of meshjig", hint=_HINT)
+    return report
+
+
+_HINT = "make the puzzle again, or remove it to judge the pieces by themselves"
 
 
 def write_report(path: Path, report: Mapping[str, Any]) -> None:

@@ -9,10 +9,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.background import Background
 from meshjig.errors import OptionError
 from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece
+from meshjig.runtime.background import Background
 from meshjig.types import Floats
 
 __all__ = ["FORMATS", "save_puzzle"]
@@ -73,7 +73,12 @@ def save_puzzle(
     if unknown:
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
     seconds = dict(report["timings_s"])
-    with replace_folder(directory) as folder, _drawn(folder, pieces, preview, turntable, explode) as pictures:
+    source = report.get("input", {}).get("file")
+    inputs = [source] if source else []
+    with (
+        replace_folder(directory, inputs=inputs) as folder,
+        _drawn(folder, pieces, preview, turntable, explode) as pictures,
+    ):
         with _lap(seconds, "write"):
             _write_meshes(folder, pieces, formats, explode)
             _write_core(folder, core)

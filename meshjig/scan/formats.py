@@ -8,6 +8,7 @@ import zipfile
 from pathlib import Path
 
 from meshjig.errors import InputError
+from meshjig.scan.announced import gltf_shortfall, off_shortfall, ply_shortfall
 
 __all__ = ["FORMATS", "check_whole", "mentions_faces"]
 
@@ -31,8 +32,16 @@ def check_whole(path: Path, kind: str) -> None:
         raise InputError(
             f"{path} is damaged: OBJ is a format of text, and it holds none", hint="export it again"
         )
-    look = {"stl": _stl, "glb": _glb, "3mf": _3mf, "obj": _obj, "ply": _ply, "off": _off}.get(kind)
-    missing = look(path) if look else ""
+    look = {
+        "stl": _stl,
+        "glb": _glb,
+        "gltf": gltf_shortfall,
+        "3mf": _3mf,
+        "obj": _obj,
+        "ply": _ply,
+        "off": _off,
+    }
+    missing = look[kind](path)
     if missing:
         raise InputError(f"{path} is cut off: {missing}", hint="copy or export it again")
 
@@ -65,7 +74,7 @@ def _glb(path: Path) -> str:
         (length,) = struct.unpack("<I", head[8:12])
         if path.stat().st_size < length:
             return f"it announces {length} bytes and holds {path.stat().st_size}"
-    return ""
+    return gltf_shortfall(path)
 
 
 def _3mf(path: Path) -> str:
@@ -85,7 +94,9 @@ def _obj(path: Path) -> str:
 
 
 def _ply(path: Path) -> str:
-    """Binary PLY is left to its reader, which counts bytes."""
+    """Rows of text are counted; of binary PLY, its size is compared."""
+    if shortfall := ply_shortfall(path):
+        return shortfall
     data = path.read_bytes()
     head, mark, body = data.partition(b"end_header")
     if not head.startswith(b"ply"):
@@ -106,7 +117,7 @@ def _off(path: Path) -> str:
     counts = match[1].split() or (lines.pop(1).split() if len(lines) > 1 else [])
     if len(counts) < 2 or not all(count.isdigit() for count in counts):
         return ""
-    return _too_few(int(counts[0]) + int(counts[1]), lines[1:])
+    return off_shortfall(counts, path.stat().st_size) or _too_few(int(counts[0]) + int(counts[1]), lines[1:])
 
 
 def _too_few(announced: int, rows: list[bytes]) -> str:

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import logging
 import os
-import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
-from meshjig.scan.native import read_isolated
+from meshjig.runtime.bounded import OutOfBounds
+from meshjig.runtime.read_ahead import ReadAhead
+from meshjig.scan.reading import FileMesh, flattened
+from meshjig.scan.source import Source, Visual
 from meshjig.types import Floats, Ints
 
 __all__ = ["Loaded", "load"]
 
-_log = logging.getLogger(__name__)
 _EXTENTS = (1e-30, 1e30)  # beyond these, products of lengths are no numbers any more
 
 
@@ -26,24 +25,25 @@ class Loaded(NamedTuple):
 
     V: Floats  # (n, 3), in the units of the source
     F: Ints  # (m, 3)
-    source: Any  # the trimesh.Trimesh, with UVs, textures and colours
+    source: Any  # the Source, or the trimesh.Trimesh given, with UVs, textures and colours
     facts: dict[str, Any]
 
 
 def load(source: Any) -> Loaded:
     """Read a mesh.
 
-    Files are read by trimesh; what it can't read, or finds no faces in, is read once more by pymeshlab
-    in a process of its own, so that a crash in native code ends as a sentence.
+    Files are read in a process of its own, see `read_file`, so that a crash in native code ends as a
+    sentence.
 
     Parameters
     ----------
-    source : path, trimesh.Trimesh, trimesh.Scene, or (V (n, 3), F (m, 3))
+    source : path, ReadAhead, trimesh.Trimesh, trimesh.Scene, or (V (n, 3), F (m, 3))
 
     Returns
     -------
     Loaded
-        Checked for shape and finite numbers, not for topology; facts holds ``file`` and ``reader``.
+        Checked for shape and finite numbers, not for topology; facts holds ``file``, ``reader`` and
+        ``notes``.
 
     Raises
     ------
@@ -52,78 +52,30 @@ def load(source: Any) -> Loaded:
         points only, no faces, no area, coordinates that are no numbers, or indices out of range.
     """
     if isinstance(source, str | os.PathLike):
-        path = Path(source)
-        loaded, reader = _read(path)
-        return _checked(loaded, path.name, {"file": str(path), "reader": reader})
+        source = ReadAhead(source)
+    if isinstance(source, ReadAhead):
+        read = _read(source)
+        facts = {"file": source.path, "reader": read.reader, "notes": read.notes}
+        return _checked(read.source, Path(source.path).name, facts)
     if isinstance(source, tuple | list) and len(source) == 2:
-        return _checked(_from_arrays(*source), "the mesh", {"file": None, "reader": "arrays"})
+        return _checked(_from_arrays(*source), "the mesh", {"file": None, "reader": "arrays", "notes": []})
     if hasattr(source, "vertices") or hasattr(source, "geometry"):
-        return _checked(_flattened(source), "the mesh", {"file": None, "reader": "trimesh"})
+        return _checked(flattened(source), "the mesh", {"file": None, "reader": "trimesh", "notes": []})
     raise InputError(f"a {type(source).__name__} is no mesh", hint="give a path, a trimesh.Trimesh or (V, F)")
 
 
-def _read(path: Path) -> tuple[Any, str]:
-    """Give a trimesh, perhaps without faces, and the reader's name."""
-    if path.is_dir():
-        raise InputError(f"{path} is a folder", hint="give the mesh file inside it")
-    if not path.exists():
-        raise InputError(f"{path} does not exist", hint="check the name")
-    kind = path.suffix.lower().lstrip(".")
-    if kind not in FORMATS:
-        known = ", ".join(sorted(FORMATS))
-        name = f"{path} is a .{kind} file" if kind else f"{path} has no file extension"
-        raise InputError(f"{name}, a format that meshjig does not know", hint=f"it reads {known}")
+def _read(reading: ReadAhead) -> FileMesh:
     try:
-        if path.stat().st_size == 0:
-            raise InputError(f"{path} is empty", hint="export it again")
-        check_whole(path, kind)
-    except OSError as error:
-        raise InputError(f"{path} can't be opened ({error.strerror})") from None
-    first = None if kind == "3mf" else _by_trimesh(path)
-    if first is not None and len(getattr(first, "faces", ())):
-        return first, "trimesh"
-    second = None if kind in ("glb", "gltf") else read_isolated(path)
-    if second is not None and (len(second[1]) or not mentions_faces(path, kind)):
-        return _from_arrays(*second, name=path.name), "lib3mf" if kind == "3mf" else "pymeshlab"
-    if first is not None:
-        return first, "trimesh"
-    raise InputError(
-        f"{path} can't be read as {kind.upper()}: it is damaged or cut off", hint="export it again"
-    )
+        return reading.result()
+    except OutOfBounds as error:
+        tail = (
+            ", and it is damaged or cut off" if error.crashed else ", more than a sound file of its size does"
+        )
+        raise InputError(f"{reading.path} {error}{tail}", hint="export it again") from None
 
 
-def _by_trimesh(path: Path) -> Any:
-    """Give a trimesh, perhaps without faces, or None."""
-    import trimesh
-
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            return _flattened(trimesh.load(path, process=False))
-    except Exception as error:  # a parser fed a broken file can raise anything
-        _log.info("trimesh can't read %s: %r", path, error)
-        return None
-
-
-def _flattened(loaded: Any) -> Any:
-    """Join a scene's meshes, each in its place."""
-    if not hasattr(loaded, "geometry"):
-        return loaded
-    meshes = [mesh for mesh in loaded.dump() if len(getattr(mesh, "faces", ()))]
-    if not meshes:
-        points = [mesh for mesh in loaded.dump() if hasattr(mesh, "vertices")]
-        return points[0] if points else _from_arrays(np.zeros((0, 3)), np.zeros((0, 3), np.int64))
-    if len(meshes) == 1:
-        return meshes[0]
-    import trimesh
-
-    return trimesh.util.concatenate(meshes)
-
-
-def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Any:
-    """Make a trimesh of arrays, after checking that they are such."""
-    import trimesh
-
+def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Source:
+    """Make a mesh of arrays, after checking that they are such."""
     try:
         V, F = np.asarray(V), np.asarray(F)
         if V.dtype.kind not in "fiu":
@@ -142,7 +94,7 @@ def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Any:
         raise InputError(f"F holds {F.dtype}", hint="faces are indices into V, of an integer type")
     F = F.reshape(-1, 3).astype(np.int64)
     _check_range(F, len(V), name)
-    return trimesh.Trimesh(V.astype(np.float64), F, process=False, validate=False)
+    return Source(V.astype(np.float64), F, Visual(None))
 
 
 def _checked(mesh: Any, name: str, facts: dict[str, Any]) -> Loaded:

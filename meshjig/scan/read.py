@@ -40,7 +40,8 @@ def read_scan(
     Returns
     -------
     Scan
-        facts is the report's ``input``: ``file``, ``reader``, ``faces`` (as loaded), ``components``,
+        facts is the report's ``input``: ``file``, ``reader``, ``notes`` (what
+        of the file was left out, a sentence each), ``faces`` (as loaded), ``components``,
         ``borders`` (open loops), ``genus`` (summed over components), ``self_crossings`` (None: not counted
         here), ``repairs`` (see `repair`), ``scale``, ``size_mm``, ``units``, ``moved_mm``,
         ``working_faces``, ``decimated_from`` (faces before, or None), ``resurfaced`` (see `resurface`; None

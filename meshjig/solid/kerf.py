@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.background import Background
 from meshjig.bodies import share_cores
 from meshjig.measure import mesh_volume, sums
+from meshjig.runtime.background import Background
 from meshjig.solid.borders import border_chains
 from meshjig.solid.carve import Carved, carve
 from meshjig.solid.offsets import Strip, mitered

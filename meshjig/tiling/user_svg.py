@@ -13,7 +13,7 @@ from meshjig.tiling.interlock import locked_edges
 from meshjig.tiling.svg.border import Border
 from meshjig.tiling.svg.corners import split_at_corners
 from meshjig.tiling.svg.covering import check_covering
-from meshjig.tiling.svg.read import SNAP, place, read_outlines
+from meshjig.tiling.svg.read import SNAP, bounded, place, read_outlines
 from meshjig.tiling.svg.translations import find_translations
 from meshjig.tiling.unit import Unit
 from meshjig.types import Floats
@@ -50,7 +50,7 @@ def user_unit(path: str | Path) -> Unit:
     -----
     When no two tiles hold on to each other, that is said in a warning.
     """
-    outlines = read_outlines(path)
+    outlines = bounded(read_outlines, path)
     rings = [outline.points for outline in outlines]
     area = sum(_area(ring) for ring in rings)
     tolerance = SNAP * float(np.sqrt(area / len(rings)))

@@ -152,7 +152,7 @@ def test_a_package_in_inches_is_read_in_mm(tmp_path):
         ("a.stl", bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[np.nan] * 12, 0), "finite"),
         ("a.stl", bytes(80) + struct.pack("<I", 1) + bytes(50), "no faces"),
         ("a.stl", b"hello", "can't be read as STL|no faces"),
-        ("a.obj", b"", "no faces|can't be read as OBJ"),
+        ("a.obj", b"", "is empty"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n", "can't be read as PLY"),
         ("a.3mf", b"PK\x03\x04 no package", "can't be read as 3MF"),
         ("a.glb", b"glTF", "can't be read as GLB"),

@@ -11,6 +11,7 @@ from meshjig.errors import OptionError
 from meshjig.tiling.assemble import assemble
 from meshjig.tiling.families.edge_shapes import EDGE_SHAPES, neck_width, with_symmetry
 from meshjig.tiling.svg.edges import read_edges
+from meshjig.tiling.svg.read import bounded
 from meshjig.tiling.unit import Unit
 from meshjig.types import Floats
 
@@ -52,7 +53,7 @@ def isohedral(name: str, seed: int = 0) -> Unit:
     """
     kind, _, path = name.partition(":")
     number = _number(kind)
-    own = read_edges(path) if path else None
+    own = bounded(read_edges, path) if path else None
     tiling = _tiling(number)
     translations = np.array([tiling.t1, tiling.t2])
     if np.linalg.det(translations) < 0:

@@ -1,22 +1,26 @@
 """Read closed outlines from an SVG file."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.runtime.bounded import Bounded, Limits, OutOfBounds, allow_file
 from meshjig.types import Bools, Floats
 
-__all__ = ["SNAP", "Outline", "place", "polyline", "read_outlines", "shown_parts"]
+__all__ = ["SNAP", "Outline", "bounded", "place", "polyline", "read_outlines", "shown_parts"]
 
 SNAP = 0.005  # share of a tile's size within which points of a drawing count as one
 
 _SAME = 2e-5  # share of an outline's extent within which points that follow each other are one
 _FLAT = 2e-4  # share of an outline's extent that its polyline may stray from a curve
 _FINEST = 256  # segments a curve
+_LIMITS = Limits(memory=400e6, seconds=5.0)
+
+Drawn = TypeVar("Drawn")
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,20 @@ class Outline:
         turn = np.arctan2(before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0], (before * along).sum(1))
         nodes = np.flatnonzero(self.node)
         return self.points[nodes[np.argsort(-np.abs(turn[nodes]), kind="stable")[:most]]]
+
+
+def bounded(reader: Callable[[str], Drawn], path: str | Path) -> Drawn:
+    """Call a reader of SVG files in a process of its own, within limits of memory and time.
+
+    Raises
+    ------
+    OptionError
+        What the reader raises; or it went beyond the limits.
+    """
+    try:
+        return Bounded(reader.__module__, reader.__qualname__, str(path), limits=_LIMITS).result()
+    except OutOfBounds as error:
+        raise OptionError(f"{path} {error}", hint="simplify the drawing") from None
 
 
 def read_outlines(path: str | Path) -> list[Outline]:
@@ -81,6 +99,7 @@ def shown_parts(path: str | Path) -> Iterator[tuple[str, Any]]:
 
     if not Path(path).is_file():
         raise OptionError(f"there is no file {path}")
+    allow_file(path)
     try:
         drawing = svgelements.SVG.parse(str(path), reify=True)
         to_file = ~svgelements.Matrix(drawing.viewbox_transform or "")

@@ -1,28 +1,18 @@
 """A function runs beside its caller, or in it, with the same outcome."""
 
 import os
+import time
 
 import numpy as np
 import pytest
 
-from meshjig.background import Background
 from meshjig.errors import SolidError
 from meshjig.measure import face_areas
+from meshjig.runtime.background import Background
 from meshjig.solid import displacement
 from tests.meshes import sphere
 
 needs_cores = pytest.mark.skipif((os.cpu_count() or 1) < 2, reason="on one core nothing runs beside")
-
-
-def niceness():
-    return os.nice(0)
-
-
-def last_words(caller):
-    """End the process, unless it is the caller's."""
-    if os.getpid() != caller:
-        os._exit(1)
-    return "still here"
 
 
 @pytest.mark.parametrize("alone", [False, True])
@@ -57,10 +47,10 @@ def test_a_child_that_has_answered_is_asked_again():
 
 
 @needs_cores
-@pytest.mark.skipif(niceness() >= 19, reason="there is nothing gentler")
+@pytest.mark.skipif(os.nice(0) >= 19, reason="there is nothing gentler")
 def test_work_done_gently_has_a_child_of_its_own():
-    plain = Background(niceness)
-    assert Background(niceness, gently=True).result() > plain.result()
+    plain = Background(os.nice, 0)
+    assert Background(os.nice, 0, gently=True).result() > plain.result()
 
 
 @needs_cores
@@ -73,7 +63,10 @@ def test_a_child_that_has_ended_meanwhile_is_replaced():
 
 @needs_cores
 def test_a_child_that_ends_at_work_leaves_it_to_the_caller():
-    assert Background(last_words, os.getpid()).result() == "still here"
+    beside = Background(time.sleep, 60)
+    beside._child.kill()
+    beside._function, beside._arguments = os.getpid, ()
+    assert beside.result() == os.getpid()
 
 
 def test_what_cannot_be_sent_is_done_by_the_caller():

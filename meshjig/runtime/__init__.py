@@ -1,0 +1,1 @@
+"""Processes, signals and limits: what a run needs of the machine."""

@@ -1,0 +1,53 @@
+"""What a worker of the command line tells the process in front of it, which outlives the worker."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+
+__all__ = ["folders_written", "read_words", "tell", "tell_through"]
+
+_pipe: int | None = None
+_written: list[str] = []
+
+
+def tell_through(pipe: int) -> None:
+    """In a worker: use this file descriptor."""
+    global _pipe
+    _pipe = pipe
+    os.set_inheritable(pipe, False)
+
+
+def tell(word: str, value: str | int) -> None:
+    """Tell the process in front, if there is one, about a folder or an exit code.
+
+    The words are ``target``, a folder that is to be replaced; ``parent``, a folder that is made for one;
+    ``written``, a target that is in place, whole; ``ended``, with the exit code.
+    """
+    if word == "written":
+        _written.append(str(value))
+    if _pipe is not None:
+        os.write(_pipe, json.dumps([word, value]).encode("ascii") + b"\n")
+
+
+def folders_written() -> list[str]:
+    """List the folders that this process has put in their places."""
+    return list(_written)
+
+
+def read_words(pipe: int) -> Iterator[tuple[str, str | int]]:
+    """Give what a worker that has ended has told."""
+    os.set_blocking(pipe, False)
+    told = b""
+    while True:
+        try:
+            part = os.read(pipe, 1 << 16)
+        except BlockingIOError:
+            break
+        if not part:
+            break
+        told += part
+    for line in told.split(b"\n")[:-1]:
+        word, value = json.loads(line)
+        yield word, value
