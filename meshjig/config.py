@@ -62,5 +62,7 @@ def parse_toml(name: str) -> dict[str, Any]:
         raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
     except RecursionError:
         raise OptionError(f"config: {path} is nested too deeply") from None
-    except ValueError as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise OptionError(f"config: {path} is no valid TOML ({error})") from None
+    except ValueError:
+        raise OptionError(f"config: {path} holds a number of too many digits") from None

@@ -15,6 +15,7 @@ from meshjig.errors import InputError
 from meshjig.output.read_3mf import read_3mf
 from meshjig.output.read_parts import is_own_obj, read_glb, read_own_obj
 from meshjig.runtime.bounded import allow_file
+from meshjig.scan.announced import ply_shortfall
 from meshjig.scan.pictures import PictureReader
 from meshjig.scan.reading import check_file, load_by_trimesh
 from meshjig.types import Floats, Ints
@@ -156,6 +157,9 @@ def _binary_stl(path: Path) -> tuple[Any, Any]:
 
 
 def _by_trimesh(path: Path) -> tuple[Any, Any]:
+    shortfall = ply_shortfall(path) if path.suffix.lower() == ".ply" else ""
+    if shortfall:
+        raise InputError(f"{path} is cut off: {shortfall}", hint="export it again")
     try:
         mesh = load_by_trimesh(path, PictureReader(), force="mesh", skip_materials=True)
         return np.asarray(mesh.vertices), np.asarray(mesh.faces)

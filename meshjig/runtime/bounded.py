@@ -18,8 +18,8 @@ __all__ = ["Bounded", "Limits", "OutOfBounds", "allow_file"]
 _EVERY = 0.01  # s between two looks at what the child uses
 
 
-_MEMORY, _SECONDS = 800_000_000, 6.0  # bytes and s that reading may take, however small the file is
-_MEMORY_A_BYTE, _SECONDS_A_BYTE = 30.0, 1e-6  # and once more for every byte of the file
+_MEMORY, _SECONDS = 800_000_000, 5.0  # bytes and s that reading may take, however small the file is
+_MEMORY_A_BYTE, _SECONDS_A_BYTE = 30.0, 4e-7  # and once more for every byte of the file
 
 
 class Limits(NamedTuple):

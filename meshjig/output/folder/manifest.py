@@ -104,14 +104,16 @@ def discard(folder: Path) -> None:
     """
     manifest = read_manifest(folder)
     files = {} if manifest is None else manifest.files
-    for name in sorted(files, key=lambda name: name == REPORT):  # the list itself goes last
-        with suppress(OSError):
-            if _is_as_written(folder / name, files[name]):
-                (folder / name).unlink()
-    homes = {folder / above for name in files for above in Path(name).parents}
-    for home in sorted(homes | {folder}, key=lambda home: -len(home.parts)):
+    report = files.pop(REPORT, "")
+    for name in files:
+        _remove(folder / name, files[name])
+    homes = {folder / above for name in files for above in Path(name).parents} - {folder}
+    for home in sorted(homes, key=lambda home: -len(home.parts)):
         with suppress(OSError):
             home.rmdir()
+    _remove(folder / REPORT, report)  # the list goes last, so that this can be taken up again
+    with suppress(OSError):
+        folder.rmdir()
     if folder.exists():
         raise OutputError(f"{folder} holds files that meshjig did not write", hint="look through them")
 
@@ -124,6 +126,12 @@ def _entries(folder: Path) -> Iterator[Path]:
         yield Path(entry.path)
         if entry.is_dir(follow_symlinks=False):
             yield from _entries(Path(entry.path))
+
+
+def _remove(path: Path, digest: str) -> None:
+    with suppress(OSError):
+        if _is_as_written(path, digest):
+            path.unlink()
 
 
 def _is_as_written(path: Path, digest: str) -> bool:
