@@ -6,6 +6,7 @@ import faulthandler
 import io
 import json
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
@@ -200,6 +201,8 @@ def view(
     with sentences(verbose, quiet):
         from meshjig.output.viewer import open_viewer
 
+        if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a worker
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         page = open_viewer(directory)
         if as_json:
             emit(json.dumps({"viewer": str(page)}))

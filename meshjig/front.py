@@ -39,7 +39,10 @@ def _end_the_worker(number: int, frame: FrameType | None) -> None:
     global _asked_by
     _asked_by = _asked_by or number
     if _worker:
-        os.kill(_worker, signal.SIGKILL)
+        try:
+            os.kill(_worker, signal.SIGKILL)
+        except ProcessLookupError:  # it has just ended
+            return
 
 
 def _open_standard_streams() -> None:

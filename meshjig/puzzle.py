@@ -141,6 +141,8 @@ class Puzzle:
             raise InputError(f"{directory} holds no report.json", hint="give a folder that meshjig made")
         files = read_puzzle_files([directory])
         report = files.report or {}
+        if "meshjig" not in report:
+            raise InputError(f"{path} is no report of meshjig", hint="give a folder that meshjig made")
         listed = [piece["id"] for piece in report["pieces"]]
         pieces = [
             Piece(name, V, F, GREY, listed[i] if i < len(listed) else i + 1)

@@ -50,7 +50,7 @@ def read_report(path: Path) -> dict[str, Any]:
         raise InputError(f"{path} can't be read ({(error.strerror or str(error)).lower()})") from None
     except (ValueError, RecursionError):
         raise InputError(f"{path} is no valid JSON, or damaged", hint=_HINT) from None
-    if not isinstance(report, dict) or "meshjig" not in report:
+    if not isinstance(report, dict):
         raise InputError(f"{path} is no report of meshjig", hint=_HINT)
     return report
 
