@@ -1,0 +1,1 @@
+"""What the structure of a package is counted by."""

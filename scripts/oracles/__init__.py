@@ -1,0 +1,1 @@
+"""What the oracle does: record what puzzles are, and compare them."""
