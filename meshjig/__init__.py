@@ -21,14 +21,14 @@ from meshjig.errors import (
 )
 
 _HOMES = {
-    "Atlas": "meshjig.types",
-    "CutMesh": "meshjig.types",
-    "Mesh": "meshjig.types",
+    "Atlas": "meshjig.mesh.types",
+    "CutMesh": "meshjig.mesh.types",
+    "Mesh": "meshjig.mesh.types",
     "Options": "meshjig.options",
-    "Outlines": "meshjig.types",
+    "Outlines": "meshjig.mesh.types",
     "Piece": "meshjig.puzzle",
     "Puzzle": "meshjig.puzzle",
-    "atlas": "meshjig.charting",
+    "atlas": "meshjig.pipeline.prepare",
     "build_atlas": "meshjig.charts",
     "cell_atlas": "meshjig.cells",
     "displacement": "meshjig.solid",
@@ -36,13 +36,13 @@ _HOMES = {
     "grow_cells": "meshjig.cells",
     "kerf": "meshjig.solid",
     "knob_outlines": "meshjig.cells",
-    "make_puzzle": "meshjig.pipeline",
+    "make_puzzle": "meshjig.pipeline.make",
     "overlay": "meshjig.cut",
     "read_scan": "meshjig.scan",
     "repair": "meshjig.scan",
     "shell": "meshjig.solid",
     "solidify": "meshjig.solid",
-    "stitch": "meshjig.stitch",
+    "stitch": "meshjig.layout.stitch",
     "tile_charts": "meshjig.tiling",
 }
 

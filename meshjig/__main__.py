@@ -10,10 +10,10 @@ __all__ = ["main"]
 def main() -> NoReturn:
     """Run the command line."""
     if hasattr(os, "posix_spawn") and sys.executable:
-        from meshjig.front import run_in_front
+        from meshjig.cli.front import run_in_front
 
         run_in_front()
-    from meshjig.cli import run
+    from meshjig.cli.commands import run
 
     run(sys.argv[1:])
 

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from meshjig.errors import InputError
+from meshjig.mesh.types import Floats
 from meshjig.output import piece as named
-from meshjig.output.puzzle_files import read_puzzle_files
+from meshjig.output.files.puzzle_files import read_puzzle_files
 from meshjig.output.save import save_puzzle
-from meshjig.types import Floats
 
 __all__ = ["Curves", "Piece", "Puzzle"]
 
@@ -115,13 +115,13 @@ class Puzzle:
         """
         from PIL import Image
 
-        from meshjig.output.whole import draw_whole
+        from meshjig.output.pictures.whole import draw_whole
 
         return Image.fromarray(draw_whole(self.pieces, size))
 
     def _repr_html_(self) -> str:
         """Show the viewer in a notebook."""
-        from meshjig.output.viewer import viewer_html
+        from meshjig.output.viewer.page import viewer_html
 
         return viewer_html(self.pieces, self.report, self.core)
 

@@ -133,7 +133,7 @@ def _theirs(clean: Path, peer: Path, out: Path) -> dict:
 def _worker(mesh: Path, out: Path, pieces: int, method: str) -> int:
     """Make a puzzle and write its STL files; print seconds and peak memory by stage."""
     import meshjig
-    from meshjig.progress import peak_memory_mb
+    from meshjig.runtime.progress import peak_memory_mb
 
     memory = {}
 

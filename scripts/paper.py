@@ -151,7 +151,7 @@ def _remade(row: Row, folder: Path, auto: bool) -> dict:
 def _in_the_plane(mesh: trimesh.Trimesh, options: dict) -> _Laps:
     """Make a puzzle as the paper does, up to its solids: in one process, as the paper's."""
     import meshjig
-    from meshjig import pipeline
+    from meshjig.pipeline import make as pipeline
 
     laps, worth = _Laps(stop_at="check"), pipeline.WORTH_A_CHILD
     pipeline.WORTH_A_CHILD = sys.maxsize

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.topology import edges
+from meshjig.mesh.halfedges import edges
 
 __all__ = [
     "Shape",

@@ -4,8 +4,8 @@ import inspect
 
 import pytest
 
-from meshjig.cli import make
-from meshjig.config import read_options
+from meshjig.cli.commands import make
+from meshjig.cli.config import read_options
 from meshjig.errors import OptionError
 from meshjig.options import PROCESSES, Options
 

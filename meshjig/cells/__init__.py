@@ -1,8 +1,8 @@
 """Mesh to cells: equal-area pieces of any surface, flattened, with knobs on their borders."""
 
-from meshjig.cells.cell_atlas import cell_atlas
 from meshjig.cells.cell_mesh import CellMesh, Seeds
+from meshjig.cells.flatten.cell_atlas import cell_atlas
 from meshjig.cells.grow import grow_cells
-from meshjig.cells.knobs import KnobLayout, knob_outlines
+from meshjig.cells.knobs.knob_outlines import KnobLayout, knob_outlines
 
 __all__ = ["CellMesh", "KnobLayout", "Seeds", "cell_atlas", "grow_cells", "knob_outlines"]

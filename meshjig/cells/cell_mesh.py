@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from meshjig.types import Floats, Ints, Mesh
+from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["CellMesh", "Seeds"]
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from meshjig.topology import Edges
-from meshjig.types import Ints
+from meshjig.mesh.halfedges import Edges
+from meshjig.mesh.types import Ints
 
 __all__ = ["DISC", "RING", "shapes"]
 

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.measure import vertex_normals
-from meshjig.topology import Edges, next_halfedge
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges, next_halfedge
+from meshjig.mesh.measure import vertex_normals
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["far_apart", "nearest", "surface_graph", "turns", "within"]
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
 from meshjig.cells.power import Field
-from meshjig.measure import face_areas, sums, unit, vertex_normals
-from meshjig.topology import Edges, components, edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges, components, edges
+from meshjig.mesh.measure import face_areas, sums, unit, vertex_normals
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Evened", "Line", "even_borders"]
 

@@ -5,15 +5,15 @@ from typing import Literal
 import numpy as np
 
 from meshjig.cells.cell_mesh import CellMesh, Seeds
-from meshjig.cells.part import Parted
-from meshjig.cells.passes import Grown, evened, grown_again, grown_from, settled
+from meshjig.cells.extract import Parted
+from meshjig.cells.lloyd import Grown, evened, grown_again, grown_from, settled
 from meshjig.cells.quad import four_sided
 from meshjig.cells.refine import places, refine
-from meshjig.cells.spread import plant
+from meshjig.cells.sample_seeds import plant
 from meshjig.cells.surface import Surface, surface
 from meshjig.errors import CutError, OptionError
-from meshjig.measure import face_areas
-from meshjig.types import Floats, Ints, Mesh
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["Style", "grow_cells"]
 

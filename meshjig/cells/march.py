@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cells.power import Field
-from meshjig.cells.slide import straightened
+from meshjig.cells.straighten import straightened
 from meshjig.cells.surface import Surface
-from meshjig.topology import Edges, edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges, edges
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched"]
 

@@ -4,8 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.measure import sums
-from meshjig.types import Floats, Ints
+from meshjig.mesh.measure import sums
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Field", "balance"]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshjig.cells.surface import Surface
 from meshjig.errors import OptionError
-from meshjig.types import Floats, Ints
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["four_sided"]
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from meshjig.measure import barycentric, face_areas
-from meshjig.topology import edges
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import barycentric, face_areas
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["places", "refine"]
 

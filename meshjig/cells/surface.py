@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from meshjig.cells.distances import surface_graph
-from meshjig.measure import area_vectors, face_areas, sums, unit
-from meshjig.topology import Edges, edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges, edges
+from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Surface", "surface"]
 

@@ -5,18 +5,18 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from meshjig.charts.arrange import lay_out
+from meshjig.charts.atlas_distortion import quality, seam_over_sqrt_area
 from meshjig.charts.auto import GATE, chart_component
 from meshjig.charts.chart import Chart, Charting
-from meshjig.charts.layout import lay_out
 from meshjig.charts.mapped import MappedAtlas
-from meshjig.charts.quality import quality, seam_over_sqrt_area
-from meshjig.charts.segment import WORTH_A_CHILD, get_ready
-from meshjig.charts.steady import steady
+from meshjig.charts.regularize import steady
+from meshjig.charts.segment.segment import WORTH_A_CHILD, get_ready
 from meshjig.charts.unwrap import chart_options
 from meshjig.errors import ChartError, OptionError
-from meshjig.runtime.background import Background
-from meshjig.topology import compact, edges
-from meshjig.types import Atlas, Floats, Ints, Mesh
+from meshjig.mesh.halfedges import compact, edges
+from meshjig.mesh.types import Atlas, Floats, Ints, Mesh
+from meshjig.runtime.worker import Background
 
 __all__ = ["AtlasMethod", "build_atlas"]
 
@@ -81,7 +81,7 @@ def build_atlas(
     V = mesh.V
     parts: list[tuple[Ints, Charting]] = []  # faces, and how they were charted
     if method == "uv":
-        from meshjig.charts.own_uv import own_uv
+        from meshjig.charts.file_uv.file_uv import own_uv
 
         brought = own_uv(mesh, source, np.eye(4) if to_source is None else to_source)
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]

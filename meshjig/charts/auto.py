@@ -4,22 +4,22 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.charts.carried import carry_over
+from meshjig.charts.arrange import lay_out
+from meshjig.charts.atlas_distortion import quality
 from meshjig.charts.chart import Chart, Charting
 from meshjig.charts.denoise import smoothed
-from meshjig.charts.flatten import Method
-from meshjig.charts.layout import lay_out
-from meshjig.charts.own import own_charts
-from meshjig.charts.proxy import coarsened, proxy
-from meshjig.charts.quality import quality
-from meshjig.charts.segment import segment
+from meshjig.charts.flatten.flatten import Method
+from meshjig.charts.segment.segment import segment
+from meshjig.charts.segmented import own_charts
 from meshjig.charts.single import single_chart
+from meshjig.charts.transfer.proxy import coarsened, proxy
+from meshjig.charts.transfer.transfer_charts import carry_over
 from meshjig.charts.unwrap import unwrap
-from meshjig.charts.zip import zip_charts
+from meshjig.charts.zip.zip import zip_charts
 from meshjig.errors import ChartError
-from meshjig.runtime.background import Background
-from meshjig.topology import Edges, edges
-from meshjig.types import Floats, Ints, Mesh
+from meshjig.mesh.halfedges import Edges, edges
+from meshjig.mesh.types import Floats, Ints, Mesh
+from meshjig.runtime.worker import Background
 
 __all__ = ["GATE", "ComponentMethod", "chart_component"]
 
@@ -126,14 +126,14 @@ def _of_heavy(
 
 
 def _rings(V: Floats, F: Ints, seed: int) -> list[Chart]:
-    from meshjig.charts.periodic import periodic
+    from meshjig.charts.tubes.periodic import periodic
 
     return periodic(V, F, seed)
 
 
 def _good_rings(V: Floats, F: Ints, light: tuple[Floats, Ints], seed: int) -> tuple[Charting | None, str]:
     """Give rings around a component where they pass the gates; else why not."""
-    from meshjig.charts.periodic import suits
+    from meshjig.charts.tubes.periodic import suits
 
     if not suits(*light):
         return None, ""

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from meshjig.topology import compact
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import compact
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Chart", "Charting", "plain"]
 

@@ -4,8 +4,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from meshjig.topology import Edges, next_halfedge
-from meshjig.types import Bools, Ints
+from meshjig.mesh.halfedges import Edges, next_halfedge
+from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["chains", "cut_faces", "cut_open"]
 

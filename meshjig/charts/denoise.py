@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.measure import edge_lengths, vertex_normals
-from meshjig.topology import Edges, edges
+from meshjig.mesh.halfedges import Edges, edges
+from meshjig.mesh.measure import edge_lengths, vertex_normals
 
 __all__ = ["denoise", "smoothed"]
 

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.locate import locate
-from meshjig.measure import barycentric, interpolate
-from meshjig.types import Atlas
+from meshjig.mesh.measure import barycentric, interpolate
+from meshjig.mesh.types import Atlas
 
 __all__ = ["curve", "lift"]
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.measure import barycentric
+from meshjig.mesh.measure import barycentric
 
 __all__ = ["locate"]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from meshjig.charts.lift import curve, lift
 from meshjig.charts.trimming import TrimmingCurve, trimming_curves
-from meshjig.types import Atlas, Floats, Ints
+from meshjig.mesh.types import Atlas, Floats, Ints
 
 __all__ = ["MappedAtlas"]
 

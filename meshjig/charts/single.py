@@ -1,12 +1,12 @@
 """One chart for a whole component: its surface cut open along a tree, or a graph where it has handles."""
 
 from meshjig.charts.chart import Chart, Charting
-from meshjig.charts.own import own_charts
-from meshjig.charts.segment import segment
-from meshjig.charts.zip import zip_charts
+from meshjig.charts.segment.segment import segment
+from meshjig.charts.segmented import own_charts
+from meshjig.charts.zip.zip import zip_charts
 from meshjig.errors import ChartError
-from meshjig.measure import face_areas
-from meshjig.types import Floats, Ints
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["single_chart"]
 

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.topology import edges, next_halfedge
-from meshjig.types import Atlas
+from meshjig.mesh.halfedges import edges, next_halfedge
+from meshjig.mesh.types import Atlas
 
 __all__ = ["TrimmingCurve", "trimming_curves"]
 

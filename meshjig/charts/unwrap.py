@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.charts.split import split
+from meshjig.charts.segment.split import split
 from meshjig.errors import OptionError
-from meshjig.topology import components, is_disc
+from meshjig.mesh.halfedges import components, is_disc
 
 __all__ = ["chart_options", "unwrap"]
 

@@ -6,10 +6,10 @@ through itself: see crossings.py.
 
 import numpy as np
 
-from meshjig.check.arrays import Piece, weld
-from meshjig.measure import mesh_volume
-from meshjig.topology import components, fans
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import components, fans
+from meshjig.mesh.measure import mesh_volume
+from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.validated import Piece, weld
 
 __all__ = ["as_stl", "is_closed", "is_closed_as_stl", "is_one_component", "volume"]
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check.arrays import boxes, close_boxes, sound_piece
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
-from meshjig.check.crossings import self_intersections
 from meshjig.check.judge import GAP_SHARE, OVERLAP_MM3
+from meshjig.check.self_intersection import self_intersections
 from meshjig.check.solids import bodies
+from meshjig.mesh.validated import boxes, close_boxes, sound_piece
 
 __all__ = ["add_failures", "judge_core"]
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshjig.check.arrays import Piece, boxes, close_boxes
-from meshjig.check.samples import Soup, area_samples, smooth_regions, soup
 from meshjig.check.solids import Body, bodies
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.sampling import Soup, area_samples, smooth_regions, soup
+from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.validated import Piece, boxes, close_boxes
 
 __all__ = ["Gap", "default_reach", "gap_between_bodies", "gaps"]
 

@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check.arrays import Piece, boxes, close_boxes, sound_piece
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
-from meshjig.check.crossings import self_intersections
 from meshjig.check.gap import Gap, default_reach, gap_between_bodies
 from meshjig.check.overlap import overlaps_of_bodies
+from meshjig.check.self_intersection import self_intersections
 from meshjig.check.sheets import without_sheets
 from meshjig.check.solids import bodies
 from meshjig.check.thickness import Thickness, measure_thickness
 from meshjig.errors import InputError
-from meshjig.runtime.background import Background
+from meshjig.mesh.validated import Piece, boxes, close_boxes, sound_piece
+from meshjig.runtime.worker import Background
 
 __all__ = ["Verdict", "judge"]
 

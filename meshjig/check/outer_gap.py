@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.topology import edges, next_halfedge
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import edges, next_halfedge
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["outer_gap"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from meshjig.check.arrays import Piece, boxes, close_boxes
 from meshjig.check.solids import Body, bodies
+from meshjig.mesh.validated import Piece, boxes, close_boxes
 
 __all__ = ["Overlaps", "overlaps", "overlaps_of_bodies"]
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshjig.check.arrays import Piece
 from meshjig.check.gap import Gap
-from meshjig.check.rays import first_hit, scene_of
-from meshjig.check.samples import soup
+from meshjig.mesh.rays import first_hit, scene_of
+from meshjig.mesh.sampling import soup
+from meshjig.mesh.validated import Piece
 
 __all__ = ["without_sheets"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from meshjig.bodies import Body, body
-from meshjig.check.arrays import Piece
+from meshjig.mesh.booleans import Body, body
+from meshjig.mesh.validated import Piece
 
 __all__ = ["Body", "bodies"]
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check.arrays import Piece
-from meshjig.check.rays import first_hit, scene_of
-from meshjig.check.samples import Soup, area_samples, soup
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.rays import first_hit, scene_of
+from meshjig.mesh.sampling import Soup, area_samples, soup
+from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.validated import Piece
 
 __all__ = ["Thickness", "measure_thickness"]
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.types import Bools, Ints
+from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["Boxes", "Cells", "box_pairs", "boxes", "make_cells", "near"]
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.types import Ints
+from meshjig.mesh.types import Ints
 
 __all__ = ["Cycles", "cycles"]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["clip_ears"]
 

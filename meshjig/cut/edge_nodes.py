@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cut.crossings import Crossings
-from meshjig.cut.sheet import Sheet
+from meshjig.cut.edge_crossings import Crossings
 from meshjig.cut.snap import Graph
-from meshjig.types import Bools, Floats, Ints
+from meshjig.cut.uv_mesh import Sheet
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["APART_MM", "EdgeNodes", "edge_nodes"]
 

@@ -12,10 +12,10 @@ from scipy.sparse.csgraph import connected_components
 
 from meshjig.cut.places import kept_off_edges
 from meshjig.cut.predicates import orient
-from meshjig.cut.sheet import Sheet, make_sheet
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import Trace, trace
-from meshjig.types import Bools, Floats, Ints
+from meshjig.cut.uv_mesh import Sheet, make_sheet
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Origin", "in_mesh", "without_islands"]
 

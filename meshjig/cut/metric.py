@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.types import Atlas, Floats, Ints
+from meshjig.mesh.types import Atlas, Floats, Ints
 
 __all__ = ["face_metric", "half_width"]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshjig.cut.broad_phase import box_pairs, boxes
 from meshjig.cut.predicates import orient
-from meshjig.types import Bools, Ints
+from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["Noded", "noded"]
 

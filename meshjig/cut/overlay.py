@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from meshjig.cut.assemble import assemble_faces, place_vertices
+from meshjig.cut.assemble_mesh import assemble_faces, place_vertices
 from meshjig.cut.cycles import cycles
 from meshjig.cut.edge_nodes import edge_nodes
-from meshjig.cut.half_edges import make_ring, wire
+from meshjig.cut.inner_halfedges import make_ring, wire
 from meshjig.cut.islands import without_islands
-from meshjig.cut.labels import joined_over_seams, label_at, label_regions, regions
 from meshjig.cut.places import corner_frames, half_edge_places, landing_weights
-from meshjig.cut.sheet import make_sheet
+from meshjig.cut.region_labels import joined_over_seams, label_at, label_regions, regions
 from meshjig.cut.snap import snap
 from meshjig.cut.triangulate import fill
-from meshjig.types import Atlas, CutMesh, Outlines
+from meshjig.cut.uv_mesh import make_sheet
+from meshjig.mesh.types import Atlas, CutMesh, Outlines
 
 __all__ = ["overlay"]
 

@@ -5,13 +5,13 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cut.edge_nodes import APART_MM, EdgeNodes
-from meshjig.cut.half_edges import Ring
-from meshjig.cut.links import Links
-from meshjig.cut.locate import Landings
+from meshjig.cut.face_segments import Links
+from meshjig.cut.inner_halfedges import Ring
+from meshjig.cut.point_hits import Landings
 from meshjig.cut.predicates import orient
-from meshjig.cut.sheet import Sheet, forward
 from meshjig.cut.snap import Graph
-from meshjig.types import Floats, Ints
+from meshjig.cut.uv_mesh import Sheet, forward
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Places", "corner_frames", "half_edge_places", "kept_off_edges", "landing_weights"]
 

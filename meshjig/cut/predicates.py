@@ -10,7 +10,7 @@ Edelsbrunner and Mücke, "Simulation of Simplicity", 1990.
 
 import numpy as np
 
-from meshjig.types import Bools, Ints
+from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["angular_order", "orient", "point_left_of_edge", "vertex_left_of_segment"]
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from meshjig.cut.noding import noded
 from meshjig.errors import CutError
-from meshjig.types import Bools, Floats, Ints, Outlines
+from meshjig.mesh.types import Bools, Floats, Ints, Outlines
 
 __all__ = ["FINEST", "Graph", "snap"]
 

@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 from meshjig.cut.broad_phase import make_cells
-from meshjig.cut.crossings import Crossings, cross
-from meshjig.cut.links import Links, follow
-from meshjig.cut.locate import Landings, locate
-from meshjig.cut.sheet import Sheet
+from meshjig.cut.edge_crossings import Crossings, cross
+from meshjig.cut.face_segments import Links, follow
+from meshjig.cut.point_hits import Landings, locate
 from meshjig.cut.snap import Graph
+from meshjig.cut.uv_mesh import Sheet
 
 __all__ = ["Trace", "trace"]
 

@@ -7,8 +7,8 @@ import numpy as np
 from meshjig.cut.cycles import Cycles
 from meshjig.cut.ears import clip_ears
 from meshjig.cut.places import Places
-from meshjig.cut.untangle import moved, parts_beside, spread
-from meshjig.types import Floats, Ints
+from meshjig.cut.spread_vertices import moved, parts_beside, spread
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Filling", "fill"]
 

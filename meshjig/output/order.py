@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.output.concatenate import together
+from meshjig.output.pictures.view import guess_up
 from meshjig.output.piece import Piece
-from meshjig.output.together import together
-from meshjig.output.view import guess_up
 
 __all__ = ["Assembly", "assembly_of", "assembly_order"]
 

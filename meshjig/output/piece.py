@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from meshjig.output.coat import Coat
-from meshjig.types import Floats, Ints
+from meshjig.mesh.types import Floats, Ints
+from meshjig.output.texture import Coat
 
 __all__ = ["Piece"]
 

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OptionError
+from meshjig.mesh.types import Floats
 from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece
-from meshjig.runtime.background import Background
-from meshjig.types import Floats
+from meshjig.runtime.worker import Background
 
 __all__ = ["FORMATS", "save_puzzle"]
 
@@ -85,8 +85,8 @@ def save_puzzle(
             _write_curves(folder, plane_curves, space_curves)
         plates: dict[str, int] | None = None
         if plate is not None:
-            from meshjig.output.plates import write_plates
-            from meshjig.output.printers import parse_plate
+            from meshjig.output.plates.printers import parse_plate
+            from meshjig.output.plates.write_plates import write_plates
 
             with _lap(seconds, "plates"):
                 parts = [*pieces, *core]
@@ -96,7 +96,7 @@ def save_puzzle(
             plates = {fact["name"]: fact["plate"] for fact in laid if fact["plate"]}
             report = {**report, "plates": laid}
         if viewer:
-            from meshjig.output.viewer import FILE, write_viewer
+            from meshjig.output.viewer.page import FILE, write_viewer
 
             with _lap(seconds, "viewer"):
                 write_viewer(folder / FILE, pieces, report, plates=plates, core=core)
@@ -104,7 +104,7 @@ def save_puzzle(
             with _lap(seconds, "guide"):
                 _write_guide(folder, pieces, report, plates, pictures)
         seconds |= pictures.result()
-        from meshjig.output.report import write_report
+        from meshjig.output.files.report_file import write_report
 
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
@@ -130,12 +130,12 @@ def _draw(
 ) -> dict[str, float]:
     seconds: dict[str, float] = {}
     if preview:
-        from meshjig.output.preview import preview as draw
+        from meshjig.output.pictures.preview import preview as draw
 
         with _lap(seconds, "preview"):
             draw(pieces, folder / "preview.png", apart=explode)
     if turntable:
-        from meshjig.output.turntable import write_turntable
+        from meshjig.output.pictures.turntable import write_turntable
 
         with _lap(seconds, "turntable"):
             write_turntable(folder / "turntable.gif", pieces)
@@ -158,8 +158,8 @@ def _write_guide(
     pictures: Background,
 ) -> None:
     """Write the guide, with the picture of the preview once that is there, if it is to be."""
-    from meshjig.output.guide import FILE, write_guide
-    from meshjig.output.guide_cover import cover_of_preview
+    from meshjig.output.guide.cover import cover_of_preview
+    from meshjig.output.guide.guide import FILE, write_guide
 
     def cover() -> NDArray[np.uint8] | None:
         pictures.result()
@@ -180,26 +180,26 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str],
     if {"stl", "ply"} & set(formats):
         (folder / "pieces").mkdir()
     if "ply" in formats:
-        from meshjig.output.ply import write_ply
+        from meshjig.output.files.ply import write_ply
 
         for piece in pieces:
             write_ply(folder / "pieces" / f"{piece.name}.ply", piece)
     if "stl" in formats:
-        from meshjig.output.stl import write_stl
+        from meshjig.output.files.stl import write_stl
 
         for piece in pieces:
             write_stl(folder / "pieces" / f"{piece.name}.stl", piece.V, piece.F, piece.name)
     if "3mf" in formats:
-        from meshjig.output.threemf import write_3mf
+        from meshjig.output.files.threemf import write_3mf
 
         write_3mf(folder / "puzzle.3mf", pieces)
     if "obj" in formats:
-        from meshjig.output.obj import write_obj
+        from meshjig.output.files.obj import write_obj
 
         write_obj(folder / "puzzle.obj", pieces)
     if "glb" in formats:
-        from meshjig.output.explode import explode_pieces
-        from meshjig.output.glb import write_glb
+        from meshjig.output.files.glb import write_glb
+        from meshjig.output.pictures.explosion import explode_pieces
 
         write_glb(folder / "puzzle.glb", pieces)
         write_glb(folder / "exploded.glb", explode_pieces(pieces, explode))
@@ -208,7 +208,7 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str],
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:
     if not core:
         return
-    from meshjig.output.stl import write_stl
+    from meshjig.output.files.stl import write_stl
 
     (folder / CORE).mkdir()
     for part in core:
@@ -218,7 +218,7 @@ def _write_core(folder: Path, core: Sequence[Piece]) -> None:
 def _write_curves(folder: Path, plane: Sequence[Floats], space: Sequence[Floats]) -> None:
     if not (len(plane) or len(space)):
         return
-    from meshjig.output.curves import write_dxf, write_obj_lines, write_svg
+    from meshjig.output.files.curve_files import write_dxf, write_obj_lines, write_svg
 
     (folder / "curves").mkdir()
     write_svg(folder / "curves" / "cuts.svg", plane)

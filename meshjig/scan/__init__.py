@@ -1,6 +1,6 @@
 """From a file to a clean mesh in mm: load, repair, scale, working resolution."""
 
-from meshjig.scan.crossings import self_crossings
+from meshjig.mesh.intersections import self_crossings
 from meshjig.scan.load import load
 from meshjig.scan.read import describe, read_scan
 from meshjig.scan.repair import repair

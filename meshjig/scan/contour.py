@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.measure import area_vectors, sums, unit
+from meshjig.mesh.measure import area_vectors, sums, unit
+from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.field import Field, steps
-from meshjig.types import Floats, Ints
 
 __all__ = ["Contour", "contour"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import area_vectors, face_areas, interpolate, unit
-from meshjig.topology import components, edges
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.measure import area_vectors, face_areas, interpolate, unit
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["turn_by_sight"]
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.refinement import refine_long_edges
-from meshjig.types import Floats, Ints
+from meshjig.mesh.subdivide import refine_long_edges
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["CORNERS", "Field", "follow", "signed_field", "steps"]
 

@@ -6,10 +6,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.measure import face_areas
+from meshjig.mesh.halfedges import border_halfedges, components, edges, next_halfedge
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.scan.manifold import is_clean
-from meshjig.topology import border_halfedges, components, edges, next_halfedge
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Filled", "fill_holes"]
 

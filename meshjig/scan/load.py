@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.types import Floats, Ints
 from meshjig.runtime.bounded import OutOfBounds
 from meshjig.runtime.read_ahead import ReadAhead
 from meshjig.scan.reading import FileMesh, flattened
 from meshjig.scan.source import Source, Visual
-from meshjig.types import Floats, Ints
 
 __all__ = ["Loaded", "load"]
 

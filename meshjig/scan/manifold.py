@@ -8,9 +8,9 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from meshjig.measure import unit
-from meshjig.topology import Edges, edges, next_halfedge
-from meshjig.types import Floats, Ints
+from meshjig.mesh.halfedges import Edges, edges, next_halfedge
+from meshjig.mesh.measure import unit
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Sheets", "is_clean", "make_manifold"]
 

@@ -9,9 +9,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from meshjig.errors import InputError
-from meshjig.measure import area_vectors, face_areas
-from meshjig.topology import components, edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.measure import area_vectors, face_areas
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Sides", "make_coherent", "turn_outward"]
 

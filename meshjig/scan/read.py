@@ -6,15 +6,15 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.scan.crossings import self_crossings
+from meshjig.mesh.halfedges import border_halfedges, components, edges
+from meshjig.mesh.intersections import self_crossings
+from meshjig.mesh.types import Ints, Mesh, Scan
 from meshjig.scan.load import load
 from meshjig.scan.repair import repair
 from meshjig.scan.resolution import decimate
 from meshjig.scan.resurface import resurface as rebuild
 from meshjig.scan.resurface import resurfacing_cell
 from meshjig.scan.scale import to_millimetres
-from meshjig.topology import border_halfedges, components, edges
-from meshjig.types import Ints, Mesh, Scan
 
 __all__ = ["describe", "read_scan"]
 

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.types import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
 from meshjig.scan.native import import_pymeshlab
@@ -18,7 +19,6 @@ from meshjig.scan.neighbours import resolver_for
 from meshjig.scan.pictures import PictureReader
 from meshjig.scan.source import Source, Visual, source_of
 from meshjig.scan.three_mf import read_3mf_mesh
-from meshjig.types import Floats, Ints
 
 __all__ = ["FileMesh", "check_file", "flattened", "load_by_trimesh", "read_file"]
 

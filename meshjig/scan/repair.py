@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.measure import face_areas
+from meshjig.mesh.halfedges import compact, components
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.manifold import is_clean, make_manifold
 from meshjig.scan.orient import make_coherent, turn_outward
 from meshjig.scan.weld import drop_doubles, flip_flat, weld
-from meshjig.topology import compact, components
-from meshjig.types import Floats, Ints
 
 __all__ = ["Repaired", "repair"]
 

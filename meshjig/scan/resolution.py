@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.halfedges import compact
+from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.manifold import is_clean
 from meshjig.scan.native import import_pymeshlab
 from meshjig.scan.repair import repair
-from meshjig.topology import compact
-from meshjig.types import Floats, Ints
 
 __all__ = ["decimate"]
 

@@ -7,15 +7,15 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.measure import face_areas
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.intersections import self_crossings
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.contour import Contour, contour
-from meshjig.scan.crossings import self_crossings
 from meshjig.scan.facing import turn_by_sight
 from meshjig.scan.field import signed_field
 from meshjig.scan.repair import repair
 from meshjig.scan.well_composed import well_composed
-from meshjig.topology import edges
-from meshjig.types import Floats, Ints
 
 __all__ = ["Resurfaced", "resurface", "resurfacing_cell"]
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.types import Floats
+from meshjig.mesh.types import Floats
 
 __all__ = ["Scaled", "to_millimetres"]
 

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.types import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
-from meshjig.types import Floats, Ints
 
 __all__ = ["open_3mf", "read_3mf_mesh"]
 

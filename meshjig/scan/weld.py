@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import area_vectors
-from meshjig.topology import edges
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import area_vectors
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["drop_doubles", "flip_flat", "weld"]
 

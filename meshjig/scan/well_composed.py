@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.types import Bools, Floats
 from meshjig.scan.field import CORNERS, Field, follow, steps
-from meshjig.types import Bools, Floats
 
 __all__ = ["well_composed"]
 

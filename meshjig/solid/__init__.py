@@ -1,7 +1,7 @@
 """From a labelled surface to solid pieces."""
 
-from meshjig.solid.apart import keep_apart
 from meshjig.solid.directions import miter_directions
+from meshjig.solid.enforce_gap import keep_apart
 from meshjig.solid.kerf import kerf
 from meshjig.solid.pieces import INNER, OUTER, WALL, Solid, solidify
 from meshjig.solid.shell import Shell, shell

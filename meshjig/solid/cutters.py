@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.bodies import Body, body, sound
-from meshjig.measure import unit
+from meshjig.mesh.booleans import Body, body, sound
+from meshjig.mesh.measure import unit
+from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.offsets import Offsets, Strip, mitered
 from meshjig.solid.slab import slabs
-from meshjig.types import Floats, Ints
 
 __all__ = ["ball", "cutters", "round_cutters"]
 

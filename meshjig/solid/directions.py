@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import area_vectors, unit
-from meshjig.solid.smoothing import Smoother
-from meshjig.types import Floats, Ints
+from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.smoothing import Smoother
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["miter_directions", "smooth_normals"]
 

@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.bodies import share_cores
-from meshjig.measure import mesh_volume, sums
-from meshjig.runtime.background import Background
-from meshjig.solid.borders import border_chains
-from meshjig.solid.carve import Carved, carve
+from meshjig.mesh.booleans import share_cores
+from meshjig.mesh.measure import mesh_volume, sums
+from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.runtime.worker import Background
+from meshjig.solid.border_chains import border_chains
+from meshjig.solid.carve_gap import Carved, carve
 from meshjig.solid.offsets import Strip, mitered
 from meshjig.solid.pieces import solidify
 from meshjig.solid.wall_edges import split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["kerf"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import area_vectors, face_areas
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.measure import area_vectors, face_areas
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["inward_room", "thin_share"]
 

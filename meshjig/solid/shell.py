@@ -8,9 +8,9 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.errors import SolidError
+from meshjig.mesh.halfedges import border_halfedges
+from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.shell_map import laid, thinness
-from meshjig.topology import border_halfedges
-from meshjig.types import Floats, Ints
 
 __all__ = ["Shell", "shell"]
 

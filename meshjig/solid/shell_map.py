@@ -7,15 +7,15 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.errors import SolidError
-from meshjig.measure import face_areas, mesh_volume
+from meshjig.mesh.halfedges import border_halfedges
+from meshjig.mesh.measure import face_areas, mesh_volume
+from meshjig.mesh.smoothing import Smoother
+from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.directions import smooth_normals
-from meshjig.solid.embedding import unfold
 from meshjig.solid.local_thickness import inward_room, thin_share
-from meshjig.solid.rounded import rounded
-from meshjig.solid.smoothing import Smoother
+from meshjig.solid.rounded_join import rounded
 from meshjig.solid.surface_distance import SurfaceDistance
-from meshjig.topology import border_halfedges
-from meshjig.types import Floats, Ints
+from meshjig.solid.untangle_sheet import unfold
 
 __all__ = ["check_thickness", "displacement", "laid", "thinness"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.solid.wall_edges import bent
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["simplified"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import unit
+from meshjig.mesh.measure import unit
+from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.solid.offsets import Offsets, Strip
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["slabs"]
 

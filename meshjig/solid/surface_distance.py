@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.measure import area_vectors, barycentric, unit
-from meshjig.types import Bools, Floats, Ints
+from meshjig.mesh.measure import area_vectors, barycentric, unit
+from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["SurfaceDistance"]
 

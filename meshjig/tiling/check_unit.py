@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.outline import edge_curves, edge_ends, knob_sides, tile_outlines
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats, Ints
 
 __all__ = ["check_unit"]
 

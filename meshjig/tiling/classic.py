@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from meshjig.mesh.types import Floats
 from meshjig.tiling.template import Template
-from meshjig.types import Floats
 
 __all__ = ["classic"]
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.topology import edge_keys, next_halfedge
-from meshjig.types import Atlas, Floats, Ints
+from meshjig.mesh.halfedges import edge_keys, next_halfedge
+from meshjig.mesh.types import Atlas, Floats, Ints
 
 __all__ = ["chart_borders", "chart_periods", "chart_polygons", "unrolled"]
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.types import Floats
 from meshjig.tiling.placing import Placing, bent_round
 from meshjig.tiling.shapes import Shapes
-from meshjig.types import Floats
 
 __all__ = ["Fit"]
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.tiling.curves import Curves
+from meshjig.mesh.types import Bools, Floats, Ints, Knobs, Outlines
+from meshjig.tiling.edge_curves import Curves
 from meshjig.tiling.net import Net
 from meshjig.tiling.template import Template
-from meshjig.types import Bools, Floats, Ints, Knobs, Outlines
 
 __all__ = ["BESIDE", "Drawing", "chart_graph", "joined"]
 

@@ -5,11 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.tiling.clear import surroundings
-from meshjig.tiling.curves import along
-from meshjig.tiling.stretch import Stretch
+from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.tiling.chart_stretch import Stretch
+from meshjig.tiling.edge_curves import along
+from meshjig.tiling.knob_clearance import surroundings
 from meshjig.tiling.template import Template
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["CLEAR", "Chances", "choose_knobs"]
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.placing import Placing
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats, Ints
 
 __all__ = ["GRAIN", "Net", "copies_over", "distinct", "lay_net", "rounded", "unwrapped"]
 

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats, Ints
 
 __all__ = ["Step", "edge_curves", "edge_ends", "knob_sides", "tile_outlines", "tile_steps"]
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.tiling.unit import Unit
-from meshjig.types import Bools, Floats, Ints
 
 __all__ = ["Placing", "bent_round", "placings_in_the_middle"]
 

@@ -5,6 +5,7 @@ from difflib import get_close_matches
 from typing import NamedTuple
 
 from meshjig.errors import OptionError
+from meshjig.mesh.types import Floats
 from meshjig.tiling.classic import classic
 from meshjig.tiling.families import escher
 from meshjig.tiling.families.hexagon import hexagons
@@ -14,9 +15,8 @@ from meshjig.tiling.families.polyomino import polyomino
 from meshjig.tiling.families.square import squares
 from meshjig.tiling.plugins import describe_plugins, plugin_names, plugin_unit
 from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.svg.user_unit import user_unit
 from meshjig.tiling.unit import Unit
-from meshjig.tiling.user_svg import user_unit
-from meshjig.types import Floats
 
 __all__ = ["family_names", "get_decor", "get_family"]
 

@@ -4,11 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.net import copies_over, distinct, lay_net, unwrapped
 from meshjig.tiling.outline import edge_ends, tile_outlines
 from meshjig.tiling.placing import Placing
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats, Ints
 
 __all__ = ["Laid", "Shapes"]
 

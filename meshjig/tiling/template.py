@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from meshjig.types import Floats, Ints
+from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Template"]
 

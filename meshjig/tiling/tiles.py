@@ -5,22 +5,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.tiling.caps import Cap, close_pole, drawn_cap
+from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
+from meshjig.tiling.chart_stretch import Stretch, chart_stretch
 from meshjig.tiling.classic import classic
-from meshjig.tiling.curves import POINT_DISTANCE, Curves, shaped_curves
 from meshjig.tiling.domain import chart_periods, chart_polygons, unrolled
+from meshjig.tiling.edge_curves import POINT_DISTANCE, Curves, shaped_curves
 from meshjig.tiling.families.square import squares
 from meshjig.tiling.graph import BESIDE, Drawing, chart_graph, joined
 from meshjig.tiling.knobs import CLEAR, Chances, choose_knobs
 from meshjig.tiling.net import Net, lay_net, rounded
 from meshjig.tiling.placing import Placing, placings_in_the_middle
-from meshjig.tiling.polar_plan import PoleStyle
-from meshjig.tiling.poles import Pole, find_poles
-from meshjig.tiling.stretch import Stretch, chart_stretch
+from meshjig.tiling.poles.caps import Cap, close_pole, drawn_cap
+from meshjig.tiling.poles.polar_plan import PoleStyle
+from meshjig.tiling.poles.poles import Pole, find_poles
 from meshjig.tiling.template import Template
 from meshjig.tiling.unit import Unit
 from meshjig.tiling.warp import WarpStyle, random_warp
-from meshjig.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
 __all__ = ["Tiling", "tile_charts", "tile_surface"]
 

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.template import Template
-from meshjig.types import Floats, Ints
 
 __all__ = ["Unit"]
 

@@ -23,9 +23,9 @@ def run(corpus: Path) -> None:
 
 
 def _row(mesh, n: int) -> str:
-    from meshjig.celled import cell_layout
+    from meshjig.layout.cells import cell_layout
     from meshjig.options import Options
-    from meshjig.progress import Stages, peak_memory_mb
+    from meshjig.runtime.progress import Stages, peak_memory_mb
 
     stages = Stages()
     start = time.perf_counter()
@@ -40,7 +40,7 @@ def _lscms(atlas) -> float:
     """Time one LSCM for each cell, one after another."""
     import igl
 
-    from meshjig.topology import border_halfedges, compact
+    from meshjig.mesh.halfedges import border_halfedges, compact
 
     V, F = atlas.mesh.V, atlas.mesh.F
     seconds = 0.0

@@ -57,7 +57,7 @@ def _lscm(mesh) -> float:
     """Time one LSCM of the proxy that the charts are made on."""
     import igl
 
-    from meshjig.charts.proxy import proxy
+    from meshjig.charts.transfer.proxy import proxy
 
     W, G = proxy(mesh.V, mesh.F)
     far = np.array([0, np.linalg.norm(W - W[0], axis=1).argmax()])
@@ -77,8 +77,8 @@ def _large(path: Path):
     import igl
 
     from meshjig import Mesh, read_scan
-    from meshjig.measure import vertex_normals
-    from meshjig.topology import edges
+    from meshjig.mesh.halfedges import edges
+    from meshjig.mesh.measure import vertex_normals
 
     mesh = read_scan(path, size=150.0, faces=LARGE // 16).mesh
     V, F = (np.ascontiguousarray(x) for x in igl.upsample(mesh.V, mesh.F, 2)[:2])

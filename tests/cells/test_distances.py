@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.cells.distances import nearest, surface_graph, within
-from meshjig.topology import edges
+from meshjig.mesh.halfedges import edges
 from tests.meshes import creased_box, cylinder, disc, sphere
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from meshjig.cells.discs import DISC, shapes
 from meshjig.cells.even_borders import Line, even_borders
-from meshjig.measure import face_areas, interpolate
-from meshjig.topology import edges, next_halfedge
+from meshjig.mesh.halfedges import edges, next_halfedge
+from meshjig.mesh.measure import face_areas, interpolate
 from tests.cut.graphs import delaunay, flat_sheet, wavy
 
 SIDE = 100.0

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from meshjig.cells import cell_atlas, grow_cells
 from meshjig.errors import OptionError
-from meshjig.measure import face_areas, interpolate
-from meshjig.topology import components, edges, is_disc
-from meshjig.types import Mesh
+from meshjig.mesh.halfedges import components, edges, is_disc
+from meshjig.mesh.measure import face_areas, interpolate
+from meshjig.mesh.types import Mesh
 from tests.meshes import (
     creased_box,
     cylinder,

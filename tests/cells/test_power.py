@@ -3,10 +3,10 @@ import pytest
 
 from meshjig.cells.distances import within
 from meshjig.cells.power import balance
-from meshjig.cells.soften import softened
-from meshjig.cells.spread import plant
+from meshjig.cells.sample_seeds import plant
+from meshjig.cells.smooth_distances import softened
 from meshjig.cells.surface import surface
-from meshjig.topology import components
+from meshjig.mesh.halfedges import components
 from tests.meshes import cylinder, disc, joined, moved, sphere, torus
 
 

@@ -5,11 +5,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from meshjig.charts import build_atlas
-from meshjig.charts.carry import Carrier
+from meshjig.charts.transfer.transfer_chart import Carrier
 from meshjig.errors import ChartError, MeshjigError, OptionError
-from meshjig.measure import face_areas
-from meshjig.topology import compact, edges, is_disc
-from meshjig.types import Mesh
+from meshjig.mesh.halfedges import compact, edges, is_disc
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Mesh
 from tests.charts.helpers import all_turn_left, corner_angles, signed_areas
 from tests.meshes import (
     Shape,

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.charts.cuts import chains, cut_faces, cut_open
-from meshjig.topology import components, edges
+from meshjig.mesh.halfedges import components, edges
 from tests.meshes import cylinder, disc, torus
 
 Y_AND_LOOP = np.array([[0, 1], [1, 2], [2, 3], [2, 4], [6, 7], [5, 6], [5, 7]])

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts.denoise import denoise
-from meshjig.measure import singular_values
-from meshjig.topology import border_halfedges
+from meshjig.mesh.halfedges import border_halfedges
+from meshjig.mesh.measure import singular_values
 from tests.meshes import creased_box, cylinder, disc, genus2, noisy, open_cup, saddle, sphere, torus
 
 

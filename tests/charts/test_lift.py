@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.charts import build_atlas, curve, lift
-from meshjig.types import Atlas, Mesh
+from meshjig.mesh.types import Atlas, Mesh
 from tests.charts.helpers import half_tube, unrolled_tube
 from tests.meshes import disc, torus
 

@@ -2,8 +2,8 @@ import pytest
 
 from meshjig.charts import build_atlas, single
 from meshjig.errors import ChartError
-from meshjig.topology import is_disc
-from meshjig.types import Mesh
+from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.types import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.meshes import creased_box, cylinder, genus2, sphere, torus, two_components
 

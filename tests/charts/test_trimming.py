@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts import build_atlas, lift, trimming_curves
-from meshjig.topology import edges, fans
-from meshjig.types import Atlas, Mesh
+from meshjig.mesh.halfedges import edges, fans
+from meshjig.mesh.types import Atlas, Mesh
 from tests.meshes import cylinder, disc, sphere, torus
 
 

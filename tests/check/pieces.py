@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.topology import border_halfedges, next_halfedge
+from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from tests.meshes import Shape, half_sphere
 
 __all__ = ["box", "folded_plate", "hemisphere_shells", "shell", "turned"]

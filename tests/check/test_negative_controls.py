@@ -11,9 +11,9 @@ import sys
 import numpy as np
 import pytest
 
+from meshjig.output.files.stl import write_stl
+from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
-from meshjig.output.stl import write_stl
-from meshjig.output.threemf import write_3mf
 from tests.check.pieces import box, folded_plate, hemisphere_shells
 from tests.meshes import Shape, joined, moved, open_cup
 

@@ -7,9 +7,9 @@ import shapely
 from scipy.spatial import Delaunay
 
 from meshjig.cut.overlay import overlay
-from meshjig.measure import area_vectors, barycentric, face_areas, interpolate
-from meshjig.topology import edges
-from meshjig.types import Atlas, Bools, CutMesh, Floats, Ints, Knobs, Mesh, Outlines
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import area_vectors, barycentric, face_areas, interpolate
+from meshjig.mesh.types import Atlas, Bools, CutMesh, Floats, Ints, Knobs, Mesh, Outlines
 
 SIDE = 100.0
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshjig.cut.ears import clip_ears
-from meshjig.measure import face_areas
+from meshjig.mesh.measure import face_areas
 
 
 def star(n, seed, deep):

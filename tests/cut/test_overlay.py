@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from meshjig.cut.overlay import overlay
 from meshjig.errors import CutError
-from meshjig.measure import interpolate
-from meshjig.types import Outlines
+from meshjig.mesh.measure import interpolate
+from meshjig.mesh.types import Outlines
 from tests.cut.graphs import (
     SIDE,
     assert_sound,

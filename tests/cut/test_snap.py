@@ -5,7 +5,7 @@ import pytest
 
 from meshjig.cut.snap import snap
 from meshjig.errors import CutError
-from meshjig.types import Outlines
+from meshjig.mesh.types import Outlines
 from tests.cut.graphs import grid_graph, loops, square
 
 UV = np.array([[0.0, 0.0], [100.0, 100.0]])

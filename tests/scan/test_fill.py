@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from meshjig.measure import mesh_volume
+from meshjig.mesh.halfedges import border_halfedges, compact
+from meshjig.mesh.measure import mesh_volume
 from meshjig.scan.fill import fill_holes
 from meshjig.scan.manifold import is_clean
-from meshjig.topology import border_halfedges, compact
 from tests.meshes import sphere, torus
 
 

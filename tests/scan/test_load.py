@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from meshjig.errors import InputError
-from meshjig.measure import face_areas, mesh_volume
+from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.scan import read_scan
 from meshjig.scan.load import load
 from meshjig.scan.native import import_pymeshlab

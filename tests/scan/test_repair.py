@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 from meshjig.errors import InputError
-from meshjig.measure import face_areas, mesh_volume
+from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.scan import repair
 from tests.meshes import (
     Shape,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.measure import mesh_volume
+from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import decimate, read_scan
 from tests.meshes import (
     border,

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from meshjig.errors import InputError
-from meshjig.measure import mesh_volume
+from meshjig.mesh.halfedges import border_halfedges, components
+from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import read_scan, resurface, self_crossings
 from meshjig.scan.manifold import is_clean
-from meshjig.topology import border_halfedges, components
 from tests.meshes import (
     Shape,
     cavity_shell,

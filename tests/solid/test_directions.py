@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from meshjig.measure import area_vectors, unit
+from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.smoothing import Smoother
 from meshjig.solid.directions import miter_directions, smooth_normals
-from meshjig.solid.smoothing import Smoother
-from meshjig.solid.visible import visible_directions
+from meshjig.solid.visible_directions import visible_directions
 from tests.meshes import creased_box, noisy, saddle, sphere, torus
 
 

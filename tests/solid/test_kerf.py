@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshjig.bodies import body
 from meshjig.check import gaps, is_closed_as_stl, is_one_component, overlaps, self_intersections
-from meshjig.output.printable import printable
+from meshjig.mesh.booleans import body
+from meshjig.mesh.halfedges import components, edges
 from meshjig.solid import displacement, kerf, solidify
-from meshjig.solid.borders import border_chains
-from meshjig.solid.mend import mended
+from meshjig.solid.border_chains import border_chains
 from meshjig.solid.pieces import OUTER
-from meshjig.topology import components, edges
+from meshjig.solid.printable.float32 import printable
+from meshjig.solid.repair_solid import mended
 from tests.meshes import creased_box, disc, genus2, half_sphere, noisy, open_cup, sphere, torus
 
 SHAPES = {

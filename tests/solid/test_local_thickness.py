@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from meshjig.measure import unit
+from meshjig.mesh.measure import unit
 from meshjig.solid.local_thickness import inward_room, thin_share
 from tests.meshes import creased_box, disc, sphere
 

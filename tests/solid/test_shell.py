@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.errors import SolidError
-from meshjig.solid.crossings import crossing_pairs
+from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.shell import shell
 from tests.meshes import creased_box, genus2, noisy, open_cup, sphere, torus, two_components
 

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from meshjig.errors import SolidError
-from meshjig.solid.crossings import crossing_pairs
+from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.shell_map import displacement
 from tests.meshes import (
     cavity_shell,

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshjig.solid.crossings import crossing_pairs
+from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.cutters import cutters, round_cutters
 from meshjig.solid.offsets import Strip, mitered
 from meshjig.solid.slab import slabs

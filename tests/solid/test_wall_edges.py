@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from meshjig.measure import face_areas, mesh_volume
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.solid.wall_edges import bends, split_bent_walls
-from meshjig.topology import edges
 from tests.meshes import disc, sphere
 
 

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from meshjig.types import Atlas, Mesh
+from meshjig.mesh.types import Atlas, Mesh
 
 
 def flat_chart(n=40, size=100.0, corner_cut=False, angle=0.0, width=1.0):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
+from meshjig.mesh.halfedges import border_halfedges
 from meshjig.tiling import chart_polygons
 from meshjig.tiling.domain import chart_borders, unrolled
-from meshjig.topology import border_halfedges
 from tests.meshes import cylinder, disc, genus2, half_sphere, open_cup, two_components
 from tests.tiling.charts import flat_chart, ring_chart
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.tiling.assemble import assemble
+from meshjig.mesh.types import Floats
+from meshjig.tiling.assemble_unit import assemble
 from meshjig.tiling.families.art.bird import BIRD
 from meshjig.tiling.families.art.dog import DOG
 from meshjig.tiling.families.art.figure import Figure, outline_edges, spline
@@ -14,7 +15,6 @@ from meshjig.tiling.families.art.lizard import LIZARD
 from meshjig.tiling.families.art.turtle import TURTLE
 from meshjig.tiling.families.art.whale import WHALE
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats
 
 __all__ = ["decor", "names", "unit"]
 

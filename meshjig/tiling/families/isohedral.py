@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.tiling.assemble import assemble
+from meshjig.mesh.types import Floats
+from meshjig.tiling.assemble_unit import assemble
 from meshjig.tiling.families.edge_shapes import EDGE_SHAPES, neck_width, with_symmetry
-from meshjig.tiling.svg.edges import read_edges
-from meshjig.tiling.svg.read import bounded
+from meshjig.tiling.svg.read_edges import read_edges
+from meshjig.tiling.svg.read_outlines import bounded
 from meshjig.tiling.unit import Unit
-from meshjig.types import Floats
 
 __all__ = ["STRAIGHT", "isohedral"]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.tiling.bezier import bezier_chain
+from meshjig.tiling.families.bezier import bezier_chain
 from meshjig.tiling.template import Template
 from meshjig.tiling.unit import Unit
 

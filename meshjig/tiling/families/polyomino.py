@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from meshjig.mesh.types import Ints
 from meshjig.tiling.classic import classic
 from meshjig.tiling.enlarge import enlarged
-from meshjig.tiling.families.grow import Cell, grow
+from meshjig.tiling.families.grow_polyomino import Cell, grow
 from meshjig.tiling.template import Template
 from meshjig.tiling.unit import Unit
-from meshjig.types import Ints
 
 __all__ = ["SQUARES", "polyomino"]
 

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.mesh.types import Floats, Ints
 from meshjig.tiling.svg.covering import copies_around
-from meshjig.tiling.svg.read import Outline, place
-from meshjig.types import Floats, Ints
+from meshjig.tiling.svg.read_outlines import Outline, place
 
 __all__ = ["split_at_corners"]
 

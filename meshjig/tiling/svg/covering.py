@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.tiling.svg.read import Outline, place
-from meshjig.types import Floats
+from meshjig.mesh.types import Floats
+from meshjig.tiling.svg.read_outlines import Outline, place
 
 __all__ = ["check_covering", "copies_around"]
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.tiling.svg.border import Border
-from meshjig.types import Floats
+from meshjig.mesh.types import Floats
+from meshjig.tiling.svg.border_samples import Border
 
 __all__ = ["find_translations"]
 

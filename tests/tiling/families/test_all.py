@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from meshjig.tiling.check_unit import check_unit
-from meshjig.tiling.interlock import locked_edges
+from meshjig.tiling.locked_edges import locked_edges
 from meshjig.tiling.outline import edge_curves
 from meshjig.tiling.registry import family_names, get_family
 from tests.tiling.tilings import cover_counts, outlines

@@ -10,7 +10,7 @@ import shapely
 from meshjig.errors import OptionError
 from meshjig.tiling.check_unit import check_unit
 from meshjig.tiling.families.isohedral import STRAIGHT, isohedral
-from meshjig.tiling.interlock import locked_edges
+from meshjig.tiling.locked_edges import locked_edges
 from tests.tiling.tilings import is_moved, outlines
 
 tactile = pytest.importorskip("tactile")

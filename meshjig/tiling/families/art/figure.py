@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshjig.mesh.types import Floats
 from meshjig.tiling.families.art.heesch import PAIRS, Complex, snapped_corners
-from meshjig.types import Floats
 
 __all__ = ["Figure", "outline_edges", "spline"]
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.types import Floats
+from meshjig.mesh.types import Floats
 
 __all__ = ["PAIRS", "Complex", "Motion", "Pair", "copies", "snapped_corners"]
 

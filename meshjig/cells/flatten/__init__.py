@@ -1,0 +1,1 @@
+"""Cells flattened to the plane, all of them at once."""

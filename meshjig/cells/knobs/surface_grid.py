@@ -1,0 +1,65 @@
+"""What lies under a place of the plane: the surface's normal and its scale, on a grid."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
+from meshjig.mesh.types import Atlas, Floats, Ints
+
+__all__ = ["Ground", "survey"]
+
+_MOST = 2_500_000  # cells of the grid
+
+
+class Ground(NamedTuple):
+    """A grid over the plane of an atlas; each of its squares names a row."""
+
+    origin: Floats  # (2,), mm
+    step: float  # mm
+    row: Ints  # (nx, ny)
+    normal: Floats  # (r, 3), unit
+    mm: Floats  # (r,)
+
+    def normals(self, points: Floats) -> Floats:
+        """Give unit normals at points (..., 2); (..., 3)."""
+        return self.normal[self._rows(points)]
+
+    def scale(self, points: Floats) -> Floats:
+        """Give how many mm in space one mm of the plane is at points (..., 2)."""
+        return self.mm[self._rows(points)]
+
+    def _rows(self, points: Floats) -> Ints:
+        at = np.floor((points - self.origin) / self.step).astype(np.int64)
+        nx, ny = self.row.shape
+        rows: Ints = self.row[np.clip(at[..., 0], 0, nx - 1), np.clip(at[..., 1], 0, ny - 1)]
+        return rows
+
+
+def survey(atlas: Atlas, step: float) -> Ground:
+    """Average faces over the squares of a grid; squares without a face take the nearest one that has.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    step : float, mm, edge of a square
+    """
+    from scipy.ndimage import distance_transform_edt
+
+    centre = atlas.uv[atlas.F_uv].mean(1)
+    low, high = centre.min(0), centre.max(0)
+    step = max(step, float(np.sqrt((high - low).prod() / _MOST)))
+    at = np.floor((centre - low) / step).astype(np.int64)
+    shape = at.max(0) + 1
+    cell = at[:, 0] * shape[1] + at[:, 1]
+    full, row = np.unique(cell, return_inverse=True)
+    n = len(full)
+    normal = area_vectors(atlas.mesh.V, atlas.mesh.F)
+    total = np.stack([sums(row, normal[:, k], n) for k in range(3)], 1)
+    space = sums(row, np.linalg.norm(normal, axis=1) / 2, n)
+    plane = sums(row, np.abs(face_areas(atlas.uv, atlas.F_uv)), n)
+    known = (space > 0) & (plane > 0)
+    number = np.full(shape, -1)
+    number.ravel()[full[known]] = np.arange(known.sum())
+    nearest = distance_transform_edt(number < 0, return_distances=False, return_indices=True)
+    return Ground(low, step, number[tuple(nearest)], unit(total[known]), np.sqrt(space[known] / plane[known]))

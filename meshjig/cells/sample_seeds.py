@@ -1,0 +1,127 @@
+"""Seeds for cells: spread over a surface evenly, each component its share."""
+
+import numpy as np
+
+from meshjig.cells.distances import nearest
+from meshjig.cells.surface import Surface
+from meshjig.mesh.measure import sums, vertex_normals
+from meshjig.mesh.types import Bools, Floats, Ints
+
+__all__ = ["centred", "plant"]
+
+_ROUNDS = 8
+_TURN = 0.5  # spacings: how far apart surfaces that face opposite ways count as being, halved
+
+
+def plant(s: Surface, n: int, seed: int) -> Ints:
+    """Spread n seeds evenly over a surface, each component its share.
+
+    Parameters
+    ----------
+    s : Surface
+    n : int; there may be more where components are many
+    seed : int
+
+    Returns
+    -------
+    (N,) int64, vertices, all different
+
+    References
+    ----------
+    Lloyd, "Least Squares Quantization in PCM", 1982.
+    """
+    count = _shares(s.component_area, s.closed, n)
+    seeds = _scattered(s.V, s.F, s.area, s.component, count, np.random.default_rng(seed))
+    for _ in range(_ROUNDS):
+        seeds = np.unique(centred(s.V, s.area, nearest(s.graph, seeds), len(seeds)))
+    return seeds
+
+
+def centred(X: Floats, area: Floats, part: Ints, n: int) -> Ints:
+    """Give the vertex of each part that is nearest to its centre of area.
+
+    Parameters
+    ----------
+    X : (v, d) float64
+    area : (v,) float64
+    part : (v,) int64, 0 to n - 1; every part has a vertex; -1 for vertices of none
+    n : int
+
+    Returns
+    -------
+    (n,) int64
+    """
+    inside = np.flatnonzero(part >= 0)
+    X, area, part = X[inside], area[inside], part[inside]
+    total = sums(part, area, n)
+    centre = np.stack([sums(part, area * x, n) for x in X.T], 1) / total[:, None]
+    off = ((X - centre[part]) ** 2).sum(1)
+    order = np.lexsort((off, part))
+    found: Ints = inside[order[np.searchsorted(part[order], np.arange(n))]]
+    return found
+
+
+def _shares(area: Floats, closed: Bools, n: int) -> Ints:
+    """Share n cells among components by area.
+
+    Parameters
+    ----------
+    area : (c,) float64, mm2
+    closed : (c,) bool; a closed component needs two cells at least, since no cell may be closed
+    n : int
+
+    Returns
+    -------
+    (c,) int64, at least 1 each; they sum to n where that leaves room for all
+    """
+    count = np.where(closed, 2, 1)
+    while count.sum() < n:  # the method of Webster: whoever has the fewest for its area comes next
+        count[(area / (count + 0.5)).argmax()] += 1
+    return count
+
+
+def _scattered(V: Floats, F: Ints, area: Floats, groups: Ints, count: Ints, rng: np.random.Generator) -> Ints:
+    """Choose vertices so that every part of a surface has as many as its area deserves.
+
+    The vertices of a group are halved by area again and again, across the direction in which they
+    reach farthest; those that face opposite ways count as apart.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    area : (n,) float64, mm2, of each vertex
+    groups : (n,) int64, 0 to c - 1
+    count : (c,) int64, vertices to choose from each group
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    (count.sum(),) int64, all different
+    """
+    spacing = np.sqrt(area.sum() / count.sum())
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    X = np.concatenate([V @ axes, _TURN * spacing * vertex_normals(V, F) @ axes], 1)
+    part, left = groups.copy(), count.copy()
+    while left.max() > 1:
+        part, left = _halved(X, area, part, left)
+    return np.unique(centred(X, area, part, len(left)))
+
+
+def _halved(X: Floats, area: Floats, part: Ints, left: Ints) -> tuple[Ints, Ints]:
+    """Split every part that wants more than one vertex into two by area."""
+    n = len(left)
+    total = sums(part, area, n)
+    mean = np.stack([sums(part, area * x, n) for x in X.T], 1) / total[:, None]
+    width = np.stack([sums(part, area * (x - mean[part, k]) ** 2, n) for k, x in enumerate(X.T)], 1)
+    along = X[np.arange(len(X)), width.argmax(1)[part]]
+    order = np.lexsort((along, part))
+    run = np.cumsum(area[order])
+    before = np.empty(len(X))
+    before[order] = run - area[order] / 2
+    start = np.cumsum(total) - total
+    first = left // 2
+    cut = (left > 1) & True
+    high = cut[part] & (before - start[part] > (total * first / left)[part])
+    number = np.where(cut, n + np.cumsum(cut) - 1, 0)
+    return np.where(high, number[part], part), np.append(np.where(cut, first, left), (left - first)[cut])

@@ -1,0 +1,1 @@
+"""Charts from the UVs that came with the file."""

@@ -1,0 +1,1 @@
+"""One chart flattened to the plane, with no face mirrored."""

@@ -1,0 +1,1 @@
+"""A surface divided into few discs that flatten well."""

@@ -1,0 +1,1 @@
+"""Charts found on a light proxy, and transferred to the full mesh."""

@@ -1,0 +1,1 @@
+"""Charts glued along their seams to fewer."""

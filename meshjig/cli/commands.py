@@ -1,0 +1,269 @@
+"""The command line: parse, call the library, print."""
+
+from __future__ import annotations
+
+import faulthandler
+import io
+import json
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
+
+import typer
+
+from meshjig.cli.config import read_options
+from meshjig.cli.flags import takes_options
+from meshjig.cli.terminal import (
+    BROKEN_PROMISE,
+    USAGE,
+    as_lines,
+    emit,
+    progress_bar,
+    say,
+    sentences,
+    tell_broken,
+    tell_notes,
+)
+from meshjig.errors import OptionError
+from meshjig.runtime.parent import end_with_parent
+from meshjig.runtime.read_ahead import ReadAhead
+from meshjig.runtime.worker_words import tell, tell_through
+
+__all__ = ["app", "run", "worker"]
+
+app = typer.Typer(
+    name="meshjig",
+    help="Turn a triangle mesh into a printable 3D jigsaw puzzle of its surface.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, GLB or 3MF file")]
+Config = Annotated[
+    Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="print the result as JSON on standard output")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    context: typer.Context,
+    show_version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
+) -> None:
+    if show_version:
+        from meshjig.pipeline.report import meshjig_version
+
+        emit(meshjig_version())
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        emit(context.get_help())
+
+
+@app.command()
+@takes_options()
+def make(
+    mesh: MeshPath,
+    flags: dict[str, Any],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
+    ] = None,
+    config: Config = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="only say what would be made, and write nothing")
+    ] = False,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
+    with sentences(verbose, quiet):
+        options = read_options(config, flags)
+        if dry_run:
+            from meshjig.pipeline.plan import plan_puzzle
+
+            plan = plan_puzzle(mesh, options)
+            emit(json.dumps(plan, indent=2) if as_json else as_lines(plan))
+            raise typer.Exit
+        from meshjig.output.folder import reserve_folder
+
+        target = output or Path(f"{Path(mesh).stem}-jigsaw")
+        inputs: list[str | Path] = [mesh, *([config] if config else [])]
+        with reserve_folder(target, inputs=inputs), progress_bar(quiet or verbose) as progress:
+            scan = ReadAhead(mesh)
+            from meshjig.pipeline.make import make_puzzle
+
+            puzzle = make_puzzle(scan, progress=progress, options=options)
+            progress("write", "start")
+            puzzle.save(target)
+        if not quiet:
+            n = len(puzzle.pieces)
+            say(f"{n} piece{'s' if n > 1 else ''} in {target}")
+            tell_notes(puzzle.report)
+        if as_json:
+            emit((target / "report.json").read_text(encoding="utf-8"))
+    if not puzzle.report["ok"]:
+        tell_broken(puzzle.report["failures"])
+        raise typer.Exit(BROKEN_PROMISE)
+
+
+@app.command()
+@takes_options("size", "pieces", "faces", "fill_holes", "cavities", "resurface", "seed")
+def info(
+    mesh: MeshPath,
+    flags: dict[str, Any],
+    charts: Annotated[bool, typer.Option("--charts", help="also cut it into charts and judge them")] = False,
+    method: Annotated[str | None, typer.Option(help="how charts are made, as make's --charts")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="DIR", help="with --charts, draw them there")
+    ] = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Say what a mesh is, and what would be done to it."""
+    with sentences(verbose, quiet):
+        options = read_options(None, flags | ({"charts": method} if method else {}))
+        if charts or method or output:
+            from meshjig.pipeline.prepare import describe_charts
+
+            facts = describe_charts(mesh, options, output)
+        else:
+            scan = ReadAhead(mesh)
+            from meshjig.scan import describe
+
+            facts = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
+        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+
+
+@app.command()
+@takes_options("thickness", "clearance", "min_wall")
+def check(
+    paths: Annotated[list[Path], typer.Argument(metavar="DIR|FILES", help="a folder of pieces, or files")],
+    flags: dict[str, Any],
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Judge finished pieces by their files, whatever made them.
+
+    Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
+    """
+    with sentences(verbose, quiet):
+        from meshjig.pipeline.check_folder import rejudge
+
+        result = rejudge(paths, flags)
+        shown = result["checks"] | {key: result[key] for key in ("names", "core") if key in result}
+        emit(json.dumps(result, indent=2) if as_json else as_lines(shown))
+    if not result["ok"]:
+        tell_broken(result["failures"])
+        raise typer.Exit(BROKEN_PROMISE)
+
+
+@app.command()
+@takes_options("process", "thickness", "clearance", "min_neck")
+def coupon(
+    flags: dict[str, Any],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="where the coupon goes")
+    ] = Path("meshjig-coupon"),
+    config: Config = None,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Make a set of test knobs that tells which clearance your printer needs."""
+    with sentences(verbose, quiet):
+        from meshjig.pipeline.coupon import save_coupon
+
+        report = save_coupon(output, read_options(config, flags))
+        if as_json:
+            emit((output / "report.json").read_text(encoding="utf-8"))
+        elif not quiet:
+            say(f"{len(report['pieces'])} tiles in {output}")
+            say(report["how_to"])
+
+
+@app.command()
+def view(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="a folder that meshjig made")],
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Open a puzzle's viewer in the browser."""
+    with sentences(verbose, quiet):
+        from meshjig.output.viewer.page import open_viewer
+
+        if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a worker
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        page = open_viewer(directory)
+        if as_json:
+            emit(json.dumps({"viewer": str(page)}))
+
+
+@app.command()
+def tiles(
+    name: Annotated[str | None, typer.Argument(help="of a tiling; all are listed if none is given")] = None,
+    svg: Annotated[Path | None, typer.Option("--svg", metavar="FILE", help="draw it there")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="seed of everything random")] = 0,
+    as_json: AsJson = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """List the tilings, or draw one."""
+    with sentences(verbose, quiet):
+        from meshjig.tiling.registry import family_names, get_decor, get_family
+
+        if name is None:
+            known = dict(family_names())
+            emit(json.dumps(known, indent=2) if as_json else as_lines(known))
+            return
+        try:
+            unit = get_family(name, seed)
+        except OptionError as error:
+            say(f"meshjig: {error}")
+            raise typer.Exit(USAGE) from None
+        if svg is not None:
+            from meshjig.output.folder.text_file import write_svg_file
+            from meshjig.tiling.draw import draw_svg
+
+            write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
+        facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
+        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+
+
+def run(words: Sequence[str]) -> NoReturn:
+    """Run the command line, and end the process.
+
+    It ends at once: whatever libraries would still do on their way out can only fail by now.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    if {"-v", "--verbose"} & set(words):
+        faulthandler.enable()
+    code: Any = 0
+    try:
+        app(args=list(words), prog_name="meshjig")
+    except SystemExit as ending:
+        code = ending.code
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError, AttributeError):
+            stream.flush()
+    code = code if isinstance(code, int) else int(code is not None)
+    tell("ended", code)
+    os._exit(code)
+
+
+def worker(front: str, pipe: str, *words: str) -> NoReturn:
+    """Run the command line as the child of a process that ends it when asked to; see `run_in_front`."""
+    end_with_parent(int(front))
+    tell_through(int(pipe))
+    run(words)

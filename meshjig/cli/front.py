@@ -1,0 +1,128 @@
+"""The process in front of a run: it ends the run when asked to, in whatever native code it is, and clears up.
+
+It imports next to nothing, so that it listens from its first moments on. The run itself is its child, the
+worker, which is killed without being asked: what it had begun is known by what it told, and by the journal
+beside its output folder.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from types import FrameType
+from typing import NoReturn
+
+__all__ = ["run_in_front"]
+
+_CRASHED, _CUT_OFF = 1, 128  # exit codes; to the second, the number of the signal is added
+_CRASHES = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGBUS": "a bus error"}
+_SHOW_CURSOR = b"\r\x1b[K\x1b[?25h"  # a progress line may have hidden it
+
+_asked_by = 0  # the signal that asked for the end
+_worker = 0
+
+
+def run_in_front() -> NoReturn:
+    """Run the command line in a child process, and end with its exit code."""
+    from meshjig.runtime.signals import ENDING
+
+    for number in ENDING:
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup wants it
+            signal.signal(number, _end_the_worker)
+    _open_standard_streams()
+    reading, status = _run_worker()
+    _leave(reading, status)
+
+
+def _end_the_worker(number: int, frame: FrameType | None) -> None:
+    global _asked_by
+    _asked_by = _asked_by or number
+    if _worker:
+        try:
+            os.kill(_worker, signal.SIGKILL)
+        except ProcessLookupError:  # it has just ended
+            return
+
+
+def _open_standard_streams() -> None:
+    """Put nothing in the place of standard streams that are closed, lest a file of ours takes it."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+            os.set_inheritable(number, True)
+
+
+def _run_worker() -> tuple[int, int]:
+    """Give what to read the worker's words from, and its status, once it has ended."""
+    global _worker
+    from meshjig.runtime.interpreter import interpreter_command
+
+    reading, writing = os.pipe()
+    os.set_inheritable(writing, True)
+    words = [str(os.getpid()), str(writing), *sys.argv[1:]]
+    command = interpreter_command("meshjig.cli.commands", "worker", *words)
+    _worker = os.posix_spawn(command[0], command, os.environ, setsigmask=[signal.SIGINT])
+    os.close(writing)
+    if _asked_by:
+        os.kill(_worker, signal.SIGKILL)
+    _, status = os.waitpid(_worker, 0)
+    _worker = 0
+    return reading, status
+
+
+def _leave(reading: int, status: int) -> NoReturn:
+    from meshjig.runtime.worker_words import read_words
+
+    told = list(read_words(reading))
+    targets = dict.fromkeys(str(value) for word, value in told if word == "target")
+    written = {str(value) for word, value in told if word == "written"}
+    ended = [int(value) for word, value in told if word == "ended"]
+    number = _asked_by or (os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0)
+    if not number and not ended:  # ended by an exit of its own, as some libraries do
+        ended = [os.waitstatus_to_exitcode(status)]
+    if ended and not _asked_by:
+        os._exit(ended[-1])
+    if os.isatty(2):
+        os.write(2, _SHOW_CURSOR)
+    for target in targets:
+        written |= {target} if _clear_up(target) else set()
+    for parent in [str(value) for word, value in told if word == "parent"][::-1]:
+        try:
+            os.rmdir(parent)
+        except OSError:
+            continue
+    name = signal.Signals(number).name
+    done = f"{', '.join(sorted(written))} is whole" if written else "nothing was written"
+    if _asked_by or name in ("SIGTERM", "SIGHUP", "SIGINT"):
+        _say(f"meshjig: interrupted; {done}")
+        os._exit(_CUT_OFF + number)
+    if name == "SIGKILL":
+        _say(f"meshjig: the run was killed, perhaps for want of memory; {done}: use fewer faces (--faces)")
+    else:
+        _say(
+            f"meshjig: native code ended by {_CRASHES.get(name, name)}; {done}: this is a bug, -v shows where"
+        )
+    os._exit(_CRASHED)
+
+
+def _clear_up(target: str) -> bool:
+    """Tell whether the run had put its folder in the target's place."""
+    from pathlib import Path
+
+    from meshjig.errors import MeshjigError
+    from meshjig.output.folder.claim import settle
+
+    try:
+        return settle(Path(target))
+    except (MeshjigError, OSError):  # another run has taken over, or the disk is gone
+        return False
+
+
+def _say(sentence: str) -> None:
+    try:
+        os.write(2, (sentence + "\n").encode("utf-8", "replace"))
+    except OSError:
+        return

@@ -1,0 +1,56 @@
+"""Close a sheet over its openings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.mesh.halfedges import border_halfedges, fans, next_halfedge
+from meshjig.mesh.measure import face_areas, unit
+from meshjig.mesh.types import Floats, Ints
+
+__all__ = ["closed_over"]
+
+
+def closed_over(V: Floats, F: Ints) -> tuple[Floats, Ints, float]:
+    """Close every opening by the flattest lid there is.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold
+
+    Returns
+    -------
+    V : (k, 3) float64, mm; a vertex at which two openings meet is there twice
+    F : (m + c, 3) int64, without a border
+    area : float, mm2, of the lids
+    """
+    h = border_halfedges(F)
+    if not len(h):
+        return V, F, 0.0
+    F, origin = fans(F)
+    V = V[origin]
+    a, b = F.ravel()[h], F.ravel()[next_halfedge(h)]
+    before = np.full(len(V), -1)
+    before[b] = a
+    lids, left = [], set(b.tolist())
+    while left:
+        loop = [left.pop()]
+        while (vertex := int(before[loop[-1]])) != loop[0]:
+            left.discard(vertex)
+            loop.append(vertex)
+        lids.append(_lid(V, np.array(loop)))
+    lid = np.concatenate(lids)
+    return V, np.concatenate([F, lid]), float(face_areas(V, lid).sum())
+
+
+def _lid(V: Floats, loop: Ints) -> Ints:
+    """Triangulate a loop, seen from where it is widest."""
+    import manifold3d
+
+    at = V[loop] - V[loop].mean(axis=0)
+    after = np.roll(at, -1, axis=0)
+    normal = np.cross(at, after).sum(axis=0)
+    side = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    flat = at @ unit(np.stack([side, np.cross(normal, side)])).T
+    return loop[np.asarray(manifold3d.triangulate([flat]), np.int64)]

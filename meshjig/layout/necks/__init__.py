@@ -1,0 +1,1 @@
+"""What holds a piece together by too little, and goes to its neighbour."""

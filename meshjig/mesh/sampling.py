@@ -1,0 +1,76 @@
+"""Points spread evenly over the surface of all pieces, the same ones every time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import area_vectors, interpolate
+from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.validated import Piece
+
+__all__ = ["Samples", "Soup", "area_samples", "smooth_regions", "soup"]
+
+_SMOOTH = 0.906  # cosine of 25 degrees, the most that faces of one region turn at an edge
+
+
+class Soup(NamedTuple):
+    """All pieces as one list of faces."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    piece: Ints  # (m,), the piece of a face
+    N: Floats  # (m, 3), unit normals
+    area: Floats  # (m,), mm2
+    start: Ints  # (pieces + 1,), where a piece's faces start
+
+
+class Samples(NamedTuple):
+    """Points on the faces of a soup, ordered by face; each stands for the same area."""
+
+    P: Floats  # (k, 3), mm
+    face: Ints  # (k,)
+
+
+def soup(pieces: Sequence[Piece]) -> Soup:
+    """Put all pieces into one list of faces."""
+    first = np.cumsum([0] + [len(V) for V, _ in pieces])
+    V = np.concatenate([V for V, _ in pieces])
+    F = np.concatenate([F + shift for (_, F), shift in zip(pieces, first, strict=False)])
+    count = [len(F) for _, F in pieces]
+    piece = np.repeat(np.arange(len(pieces)), count)
+    twice = area_vectors(V, F)
+    area = np.linalg.norm(twice, axis=1) / 2
+    return Soup(V, F, piece, twice / np.maximum(2 * area, 1e-300)[:, None], area, np.cumsum([0, *count]))
+
+
+def area_samples(s: Soup, n: int) -> Samples:
+    """Spread n points over the faces, each standing for the same area.
+
+    Steps of equal area through the list of faces, and within a face a golden-ratio sequence:
+    as random as needed, and the same every time.
+    """
+    end = np.cumsum(s.area)
+    face = np.searchsorted(end, (np.arange(n) + 0.5) * (end[-1] / n), side="right")
+    face = np.minimum(face, len(s.F) - 1)
+    k = np.arange(1, n + 1)
+    a, b = np.modf(k * 0.7548776662466927)[0], np.modf(k * 0.5698402909980532)[0]
+    a = np.sqrt(a)
+    return Samples(interpolate(s.V, s.F, face, np.stack([1 - a, a * (1 - b), a * b], 1)), face)
+
+
+def smooth_regions(s: Soup) -> Ints:
+    """Number the parts of the surface between edges sharper than 25 degrees, (m,) int64, a number a face."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    twin = edges(s.F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    a, b = h // 3, twin[h] // 3
+    smooth = np.einsum("ij,ij->i", s.N[a], s.N[b]) > _SMOOTH
+    links = (a[smooth], b[smooth])
+    graph = coo_matrix((np.ones(len(links[0]), np.int8), links), shape=(len(s.F), len(s.F)))
+    return connected_components(graph, directed=False)[1].astype(np.int64)

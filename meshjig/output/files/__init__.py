@@ -1,0 +1,1 @@
+"""Meshes, lines and reports as files, and read back from them."""

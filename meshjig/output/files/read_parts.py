@@ -1,0 +1,117 @@
+"""Read pieces back from one file that holds them all: meshjig's own OBJ, and GLB."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from meshjig.errors import InputError
+from meshjig.mesh.halfedges import compact
+from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.validated import sound_piece, weld
+from meshjig.scan.announced import gltf_shortfall
+from meshjig.scan.pictures import PictureReader
+from meshjig.scan.reading import load_by_trimesh
+
+__all__ = ["is_own_obj", "read_glb", "read_own_obj"]
+
+_MM = 1000.0  # glTF has metres as its unit
+
+
+def is_own_obj(path: Path) -> bool:
+    """Tell whether meshjig wrote an OBJ: then its groups are pieces. In others they may be anything."""
+    with path.open("rb") as file:
+        return path.suffix.lower() == ".obj" and file.read(9) == b"# meshjig"
+
+
+def read_own_obj(path: Path) -> list[tuple[str, Floats, Ints]]:
+    """Read the groups of an OBJ that meshjig wrote: triangles only, corners without normals.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    list of (name, V, F)
+        V (n, 3) float64, mm; F (m, 3) int64.
+
+    Raises
+    ------
+    InputError
+        The file is damaged.
+    """
+    lines = path.read_bytes().decode("utf-8", "replace").split("\n")
+    groups = [i for i, line in enumerate(lines) if line.startswith("g ")]
+    try:
+        V = _numbers(lines, "v ", float)
+        pieces = []
+        for start, end in zip(groups, [*groups[1:], len(lines)], strict=True):
+            F = _numbers(lines[start:end], "f ", int).astype(np.int64) - 1
+            pieces.append(_part(V, F, lines[start][2:].strip(), path))
+    except ValueError:
+        raise InputError(f"{path} can't be read as OBJ (a line is damaged)") from None
+    if not pieces:
+        raise InputError(f"{path} holds no pieces")
+    return pieces
+
+
+def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
+    """Read the nodes of a GLB, each where the scene puts it.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    list of (name, V, F)
+        V (n, 3) float64, mm, metres in the file; F (m, 3) int64.
+
+    Raises
+    ------
+    InputError
+        No GLB, or no meshes in it.
+    """
+    shortfall = gltf_shortfall(path)
+    if shortfall:
+        raise InputError(f"{path} is cut off: {shortfall}", hint="export it again")
+    try:
+        scene = load_by_trimesh(path, PictureReader(), force="scene")
+        placed = {name: scene.graph[name] for name in sorted(scene.graph.nodes_geometry)}
+        parts = [(name, M, scene.geometry[key]) for name, (M, key) in placed.items()]
+        arrays = [
+            (
+                name,
+                _MM * (np.asarray(mesh.vertices) @ M[:3, :3].T + M[:3, 3]),
+                np.asarray(mesh.faces, np.int64),
+            )
+            for name, M, mesh in parts
+        ]
+    except InputError:
+        raise
+    except Exception as error:  # trimesh's readers raise whatever their parsers do
+        raise InputError(
+            f"{path} can't be read as GLB ({(str(error) or type(error).__name__).splitlines()[0]})"
+        ) from None
+    if not arrays:
+        raise InputError(f"{path} holds no meshes")
+    return [_part(V, F, name, path) for name, V, F in arrays]
+
+
+def _part(V: Floats, F: Ints, name: str, path: Path) -> tuple[str, Floats, Ints]:
+    V, F = sound_piece(V, F, f"{name} in {path}")
+    F, kept = compact(F)
+    return name, *sound_piece(*weld(V[kept], F), f"{name} in {path}")
+
+
+def _numbers(lines: list[str], start: str, kind: type) -> Floats:
+    """Give the first three numbers on every line that starts so, (n, 3); what follows them is colour."""
+    chosen = [line[2:] for line in lines if line.startswith(start)]
+    rows = re.sub(r"/\d+", "", " ".join(chosen)).split()  # corner/picture: the corner matters here
+    table: Floats = np.array(rows, dtype=object).astype(kind).reshape(max(len(chosen), 1), -1)
+    if table.shape[1] not in (3, 6):
+        raise ValueError(f"{table.shape[1]} numbers on a line")
+    return table[:, :3]

@@ -1,0 +1,1 @@
+"""The guide: a PDF that shows how to put a puzzle together."""

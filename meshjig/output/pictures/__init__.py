@@ -1,0 +1,1 @@
+"""Pictures by ray casting, and what is drawn on them."""

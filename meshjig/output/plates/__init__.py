@@ -1,0 +1,1 @@
+"""Pieces laid on the plates of printers."""

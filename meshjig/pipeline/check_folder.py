@@ -1,0 +1,50 @@
+"""Judge a puzzle by its files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from meshjig.check import add_failures, judge, judge_core
+from meshjig.output.files.expectations import read_asked, read_missing
+from meshjig.output.files.puzzle_files import read_puzzle_files
+
+__all__ = ["rejudge"]
+
+
+def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str, Any]:
+    """Judge finished pieces, and the core where there is one, by their files alone.
+
+    Parameters
+    ----------
+    paths : see `meshjig.output.files.read_pieces.read_pieces`
+    asked_instead : mapping
+        Any of thickness, clearance, min_wall in mm, in place of what a report.json there says.
+
+    Returns
+    -------
+    dict
+        "checks", "names", "failures", "exempt": see `meshjig.check.Verdict`; among the failures also
+        "missing", what a report lists and no file holds; "core", where there is one: see
+        `meshjig.check.judge_core`; "ok": bool.
+
+    Raises
+    ------
+    InputError
+        Nothing found, or a file that can't be read.
+    """
+    pieces, core, report = read_puzzle_files(paths)
+    asked = read_asked(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
+    verdict = judge(pieces, **asked)
+    result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
+    result["exempt"] = verdict.exempt
+    missing = read_missing(report, [name for name, _, _ in (*pieces, *core)])
+    if missing:
+        result["failures"]["missing"] = missing
+    if core:
+        result["core"], broken = judge_core(
+            core, pieces, clearance=asked["clearance"], exempt_pieces=asked["exempt_pieces"]
+        )
+        add_failures(result["failures"], broken)
+    return result | {"ok": not result["failures"]}

@@ -1,0 +1,207 @@
+"""From a mesh to a puzzle, a line a stage."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from meshjig.charts import MappedAtlas
+from meshjig.check import touched_pieces
+from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
+from meshjig.errors import OptionError
+from meshjig.layout.cells import cell_layout
+from meshjig.layout.interlock import interlock
+from meshjig.layout.layout import Layout, Parts
+from meshjig.layout.tiles import tile_layout
+from meshjig.layout.unique import LEAST_DIFFERENCE, clashes
+from meshjig.mesh.halfedges import border_halfedges, components
+from meshjig.mesh.measure import area_vectors, face_areas, sums
+from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
+from meshjig.mesh.types import Floats, Ints, Mesh, Scan
+from meshjig.options import Options
+from meshjig.output.pictures.colours import colours
+from meshjig.output.plates.estimate import estimate
+from meshjig.output.texture import coats
+from meshjig.pipeline.extras import add_core, core_of, finished
+from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
+from meshjig.pipeline.prepare import chart, clean_scan
+from meshjig.pipeline.report import assemble_report
+from meshjig.pipeline.verify import judged
+from meshjig.puzzle import Curves, Piece, Puzzle
+from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
+from meshjig.runtime.worker import Background
+from meshjig.scan import self_crossings
+from meshjig.solid import Shell, kerf, shell
+
+__all__ = ["make_puzzle"]
+
+MUCH_FINER = 1.1  # times as many faces: more freedom for charts
+WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
+
+
+def make_puzzle(
+    mesh: Any, *, progress: Progress | None = None, options: Options | None = None, **keywords: Any
+) -> Puzzle:
+    """Turn a triangle mesh into a jigsaw puzzle of its surface.
+
+    Parameters
+    ----------
+    mesh : path, trimesh.Trimesh, or (V, F)
+    progress : callable, optional
+        Called with a stage's name and "start" or "end".
+    options : Options, optional
+        In place of keywords.
+    **keywords
+        The fields of `Options`.
+
+    Returns
+    -------
+    Puzzle
+
+    Raises
+    ------
+    MeshjigError
+        One of its children; the sentence says what is wrong, where, and what to do.
+    """
+    options = options or Options.of(**keywords)
+    refuse_unknown_names(options)
+    stages = Stages(progress)
+    with stages("scan"):
+        scan = clean_scan(mesh, options)
+        longest = _longest_edge(scan.mesh, options)
+        surface = Mesh(*refine_long_edges(scan.mesh.V, scan.mesh.F, longest))
+    small = len(surface.F) < WORTH_A_CHILD
+    beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
+    try:
+        if options.layout == "cells":
+            layout = cell_layout(surface, options, stages)
+        else:
+            with stages("charts"):
+                atlas = _atlas(scan, surface, longest, options)
+            layout = tile_layout(atlas, options, stages)
+        _refuse_a_hollow_piece(layout)
+        with stages("clearance"):
+            parts = _leave_gaps(layout, options)
+        with stages("solid"):
+            sheets, scan.facts["self_crossings"], crossing = beside.result()
+            solids, solid_facts = _solids(surface, layout, parts, sheets, options)
+        with stages("finish"):
+            solids, label_facts = finished(solids, surface, sheets, options)
+            core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
+    except BaseException:
+        beside.cancel()
+        raise
+    with stages("check"):
+        locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+        names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
+        touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
+        exempt = [names[i] for i in sorted(touched)]
+        neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
+        solids, verdict, mended = judged(solids, names, neighbours, options, exempt)
+        solid_facts["dented"] = mended["dented"]
+        solid_facts["discarded_volume_share"] += mended["discarded"]
+        on_surface = parts if options.clearance_method != "solid" else None
+        report = assemble_report(options, scan, layout, on_surface, locks, verdict, solids, solid_facts)
+        report["exempt_pieces"] = exempt
+        if options.labels:
+            report["labels"] = label_facts
+        if options.core:
+            bodies = [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)]
+            add_core(report, core, core_facts, bodies)
+    if options.unique:
+        report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]
+    report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
+    tints, outward = colours(len(solids), locks.pairs), _outer_normals(layout)
+    pieces = _named(solids, names, tints, outward, scan, options)
+    report["material"] = estimate(pieces, options.process)
+    curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
+    return Puzzle(pieces, report, curves, core)
+
+
+def _named(
+    solids: list[tuple[Floats, Ints]],
+    names: list[str],
+    tints: Floats,
+    outward: Floats,
+    scan: Scan,
+    options: Options,
+) -> list[Piece]:
+    """Give solids their names, their colours, and the picture of the scan where it has one."""
+    t, drawn = options.thickness, 0.25 * options.thickness
+    off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
+    dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
+    return [
+        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
+        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
+    ]
+
+
+def _outer_normals(layout: Layout) -> Floats:
+    """Give the area vector of every piece's outer sheet, (p, 3), mm2."""
+    A, n = area_vectors(layout.cut.V, layout.cut.F) / 2, layout.stitching.n_pieces
+    return np.stack([sums(layout.piece_of_face, A[:, k], n) for k in range(3)], 1)
+
+
+def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None, Ints]:
+    """Do what needs no charts: the two sheets, how often the mesh crosses itself, and in which faces."""
+    pairs = self_crossings(mesh.V, mesh.F)
+    crossing = self_crossings(surface.V, surface.F) if pairs is not None and len(pairs) else None
+    sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
+    none: Ints = np.zeros((0, 2), np.int64)
+    return sheets, None if pairs is None else len(pairs), none if crossing is None else crossing
+
+
+def _longest_edge(mesh: Mesh, options: Options) -> float:
+    """Give a quarter of a tile, mm: no tile may fall inside a single face."""
+    area = float(face_areas(mesh.V, mesh.F).sum())
+    tile = options.piece_size or float(np.sqrt(area / options.pieces))
+    refuse_too_small_pieces(tile, area, options)
+    refuse_small_plate(tile, options)
+    return tile / 4
+
+
+def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> MappedAtlas:
+    """Chart the surface; before it was refined, where that makes little difference to its faces.
+
+    So a few long edges don't change the charts that `info` has shown.
+    """
+    if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
+        return chart(Scan(surface, scan.source, scan.to_source), options)
+    return refine_atlas(chart(scan, options), longest)
+
+
+def _refuse_a_hollow_piece(layout: Layout) -> None:
+    """Refuse to make the model's main part, where it is closed, a single piece: it would be hollow."""
+    F, piece = layout.cut.F, layout.piece_of_face
+    n, component = components(F)
+    main = component == np.bincount(component, face_areas(layout.cut.V, F), n).argmax()
+    open_parts = component[border_halfedges(F) // 3]
+    if np.ptp(piece[main]) == 0 and not np.isin(component[main][:1], open_parts).any():
+        raise OptionError("pieces: the model would be a single hollow piece", hint="ask for more pieces")
+
+
+def _leave_gaps(layout: Layout, options: Options) -> Parts:
+    """Cut the surface once more with the gap, unless the gap is to be taken from the solids."""
+    if options.clearance == 0 or options.clearance_method == "solid":
+        return Parts(layout.cut, layout.piece_of_face, 0.0)
+    atlas = layout.atlas
+    band = gap_outlines(
+        atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
+    )
+    cut = overlay(atlas, band)
+    piece, specks = carry_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
+    area = face_areas(cut.V, cut.F)
+    return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
+
+
+def _solids(
+    surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
+) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+    """Give the pieces their thickness."""
+    cut = parts.cut
+    outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
+    clearance = options.clearance if options.clearance_method == "solid" else 0.0
+    made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
+    facts["discarded_volume_share"] += parts.discarded
+    return made, {**sheets.facts, **facts}

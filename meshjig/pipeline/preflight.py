@@ -1,0 +1,93 @@
+"""What can be refused before any work is done."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshjig.errors import OptionError
+from meshjig.options import Options
+from meshjig.output.plates.printers import parse_plate
+from meshjig.output.plates.write_plates import GAP
+from meshjig.tiling.outline import edge_ends
+from meshjig.tiling.registry import get_family
+
+__all__ = ["refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
+
+FEWEST = 2  # pieces that a puzzle can have
+NARROWEST = 0.5  # of a piece's size: pieces as narrow as that are rare
+CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
+
+
+def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:
+    """Refuse pieces whose knobs the clearance would cut off.
+
+    Parameters
+    ----------
+    size : float, mm, edge of a square as large as a piece
+    area : float, of the surface, mm2
+    options : Options
+
+    Raises
+    ------
+    OptionError
+        The sentence says what would do.
+    """
+    neck = CELL_NECK if options.layout == "cells" else _neck_of_tiles(options)
+    if neck is None:
+        return
+    smallest = (2 * options.clearance + 0.1) / neck  # half of the neck is left
+    if size >= smallest:
+        return
+    most, widest = int(area / smallest**2), max(neck * size / 2 - 0.05, 0.0)
+    larger = f"pieces of at least {smallest:.2g} mm" if options.piece_size else f"at most {most} pieces"
+    raise OptionError(
+        f"pieces of {size:.2g} mm have knobs with a neck of {neck * size:.2g} mm, "
+        f"too narrow for a clearance of {options.clearance:g} mm",
+        hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
+    )
+
+
+def refuse_small_plate(size: float, options: Options) -> None:
+    """Refuse a plate on which no piece will fit.
+
+    Parameters
+    ----------
+    size : float, mm, edge of a square as large as a piece
+    options : Options
+
+    Raises
+    ------
+    OptionError
+        The sentence says what would do.
+    """
+    if options.plate is None:
+        return
+    plate = parse_plate(options.plate)
+    if min(plate.width, plate.depth) - 2 * GAP < NARROWEST * size:
+        raise OptionError(
+            f"plate: pieces of about {size:.2g} mm fit no plate of {plate}, with {GAP:g} mm around each",
+            hint="use a larger --plate, or ask for more pieces",
+        )
+
+
+def refuse_unknown_names(options: Options) -> None:
+    """Refuse a tiling or a printer that nobody knows.
+
+    Raises
+    ------
+    OptionError
+        The sentence lists those that are known.
+    """
+    if options.layout == "tiles":
+        get_family(options.tile, options.seed)
+    if options.plate is not None:
+        parse_plate(options.plate)
+
+
+def _neck_of_tiles(options: Options) -> float | None:
+    """Give the width of a tile's neck, in sizes of the tile; None where tiles interlock by their shape."""
+    unit = get_family(options.tile, options.seed)
+    if unit.template is None:
+        return None
+    ends = edge_ends(unit)
+    return unit.template(8).neck_width * float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min())

@@ -1,0 +1,1 @@
+"""Solids as files of 32-bit floats can hold them."""

@@ -1,0 +1,1 @@
+"""How a tiling closes over the poles of a ring."""

@@ -1,0 +1,88 @@
+"""Labels and a core, from the options to the files and back."""
+
+import json
+import shutil
+
+import pytest
+from PIL import Image
+
+from meshjig import Puzzle, make_puzzle
+from meshjig.mesh.measure import mesh_volume
+from meshjig.pipeline.check_folder import rejudge
+from tests.meshes import sphere
+
+N = 20
+ASKED = {"pieces": N, "size": 90, "clearance": 0.3}
+
+
+@pytest.fixture(scope="module")
+def plain():
+    return make_puzzle(sphere(3000), **ASKED)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    puzzle = make_puzzle(sphere(3000), **ASKED, labels=True, core=True, turntable=True, plate="72x72")
+    return puzzle.save(tmp_path_factory.mktemp("out") / "ball", ("stl", "glb"), viewer=False, preview=False)
+
+
+@pytest.fixture(scope="module")
+def report(folder):
+    return json.loads((folder / "report.json").read_text())
+
+
+def test_labels_take_material_and_break_no_promise(plain, report):
+    assert report["ok"]
+    assert report["failures"] == {}
+    assert report["labels"]["engraved"] + len(report["labels"]["skipped"]) == N
+    assert report["labels"]["engraved"] > N / 2
+    bare = sum(mesh_volume(piece.V, piece.F) for piece in plain.pieces)
+    lettered = sum(piece["volume_mm3"] for piece in report["pieces"])
+    assert 0.95 * bare < lettered < 0.9999 * bare
+    assert "labels" not in plain.report
+
+
+def test_core_is_written_in_parts_that_fit_and_keeps_its_gap(folder, report):
+    parts = sorted(path.name for path in (folder / "core").iterdir())
+    assert parts == [f"core_{i + 1}.stl" for i in range(report["core"]["parts"])]
+    assert len(parts) > 1  # 90 mm on a plate of 72
+    assert report["core"]["gap_mm"] >= 0.95 * 0.3
+    assert report["core"]["overlap_mm3"] == 0
+
+
+def test_files_are_judged_with_their_core(folder):
+    found = rejudge([folder], {})
+    assert found["ok"], found["failures"]
+    assert found["core"]["gap_mm"] >= 0.95 * 0.3
+    stricter = rejudge([folder], {"clearance": 0.8})
+    assert any(name.startswith("core_") for name in stricter["failures"]["gap_mm"])
+
+
+def test_turntable_turns(folder):
+    with Image.open(folder / "turntable.gif") as picture:
+        assert picture.n_frames > 20
+        first = picture.convert("RGB").tobytes()
+        picture.seek(picture.n_frames // 4)
+        assert picture.convert("RGB").tobytes() != first
+
+
+def test_exploded_scene_is_larger(folder):
+    import trimesh
+
+    whole, apart = (trimesh.load(folder / f"{name}.glb").extents for name in ("puzzle", "exploded"))
+    assert (apart > 1.3 * whole).all()
+
+
+def test_a_puzzle_keeps_its_core_when_loaded_and_saved(folder, report, tmp_path):
+    again = Puzzle.load(folder).save(tmp_path / "again", ("stl",), viewer=False, preview=False, guide=False)
+    assert len(list((again / "core").iterdir())) == report["core"]["parts"]
+
+
+def test_what_the_report_lists_and_no_file_holds_is_missing(folder, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    (copy / "pieces/piece_003.stl").unlink()
+    (copy / "core/core_1.stl").unlink()
+    found = rejudge([copy], {})
+    assert not found["ok"]
+    assert found["failures"]["missing"] == ["core_1", "piece_003"]

@@ -1,0 +1,36 @@
+"""A plan says beforehand what the puzzle comes to."""
+
+import pytest
+
+from meshjig import make_puzzle
+from meshjig.errors import OptionError
+from meshjig.options import Options
+from meshjig.pipeline.plan import plan_puzzle
+from tests.meshes import sphere
+
+ASKED = {"pieces": 24, "size": 100, "plate": "120x120"}
+
+
+def test_plan_is_near_to_what_is_made(tmp_path):
+    plan = plan_puzzle(sphere(3000), Options.of(**ASKED))
+    report = make_puzzle(sphere(3000), **ASKED).report
+    assert plan["pieces"] == pytest.approx(len(report["pieces"]), abs=1)
+    assert plan["model"]["area_mm2"] == pytest.approx(sum(p["area_mm2"] for p in report["pieces"]), rel=1e-3)
+    volume = sum(piece["volume_mm3"] for piece in report["pieces"])
+    assert plan["material"]["volume_mm3"] == pytest.approx(volume, rel=0.1)
+    assert max(plan["model"]["size_mm"]) == pytest.approx(100)
+
+
+def test_smaller_plates_are_more():
+    counts = [
+        plan_puzzle(sphere(2000), Options.of(**ASKED | {"plate": p}))["plates"] for p in ("90x90", "300x300")
+    ]
+    assert counts[0] > counts[1] >= 1
+
+
+def test_what_would_be_refused_is_refused():
+    with pytest.raises(OptionError, match="too narrow"):
+        plan_puzzle(sphere(2000), Options.of(pieces=9000, size=40))
+    for plate in ("nowhere", "5x5", "4x200"):
+        with pytest.raises(OptionError, match="plate"):
+            plan_puzzle(sphere(2000), Options.of(plate=plate))
