@@ -6,7 +6,8 @@ import numpy as np
 
 from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
 from meshjig.cells.power import Field
-from meshjig.mesh.halfedges import Edges, components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import face_areas, sums, unit, vertex_normals
 from meshjig.mesh.types import Bools, Floats, Ints
 

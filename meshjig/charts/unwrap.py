@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from meshjig.charts.segment.split import split
 from meshjig.errors import OptionError
-from meshjig.mesh.halfedges import components, is_disc
+from meshjig.mesh.components import components, is_disc
 
 __all__ = ["chart_options", "unwrap"]
 

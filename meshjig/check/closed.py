@@ -6,7 +6,7 @@ through itself: see crossings.py.
 
 import numpy as np
 
-from meshjig.mesh.halfedges import components, fans
+from meshjig.mesh.components import components, fans
 from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.types import Floats, Ints
 from meshjig.mesh.validated import Piece, weld

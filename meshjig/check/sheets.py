@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshjig.check.gap import Gap
-from meshjig.mesh.rays import first_hit, scene_of
+from meshjig.check.piece_rays import first_hit, scene_of
 from meshjig.mesh.sampling import soup
 from meshjig.mesh.validated import Piece
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.rays import first_hit, scene_of
+from meshjig.check.piece_rays import first_hit, scene_of
 from meshjig.mesh.sampling import Soup, area_samples, soup
 from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.mesh.validated import Piece

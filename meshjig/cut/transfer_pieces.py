@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshjig.errors import CutError
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.mesh.measure import barycentric, face_areas
 from meshjig.mesh.types import GAP, CutMesh, Floats, Ints, Mesh
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.halfedges import border_halfedges, fans, next_halfedge
+from meshjig.mesh.components import fans
+from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import face_areas, unit
 from meshjig.mesh.types import Floats, Ints
 

@@ -15,7 +15,8 @@ from meshjig.extras.enforce_clearance import cleared
 from meshjig.extras.hollow import hollowed
 from meshjig.extras.inset import inset_surface
 from meshjig.mesh.booleans import Body, arrays, body, largest, sound
-from meshjig.mesh.halfedges import compact, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Floats, Ints, Mesh
 

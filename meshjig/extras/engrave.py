@@ -12,7 +12,7 @@ from meshjig.extras.inner import wall_behind
 from meshjig.extras.label_place import Place, places
 from meshjig.extras.text import text_outline
 from meshjig.mesh.booleans import Body, arrays, body, sound
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.types import Floats, Ints, Mesh
 

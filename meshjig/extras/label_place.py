@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.halfedges import border_halfedges, compact, components, next_halfedge
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
 from meshjig.mesh.types import Bools, Floats, Ints
 

@@ -1,13 +1,11 @@
 """The rim of a chart, in order."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Ints
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 
 __all__ = ["border_loop", "longest_loop"]
-
-Ints = NDArray[np.int64]
 
 
 def border_loop(F: Ints) -> Ints:

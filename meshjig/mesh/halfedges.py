@@ -1,26 +1,19 @@
-"""Who touches whom in a triangle mesh: edges, twins, borders, components."""
+"""Who touches whom in a triangle mesh: edges, twins, borders."""
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
+
+from meshjig.mesh.arrays import Ints
 
 __all__ = [
     "Edges",
     "border_halfedges",
     "compact",
-    "components",
     "edge_keys",
     "edges",
-    "fans",
-    "is_disc",
     "next_halfedge",
 ]
-
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 
 class Edges(NamedTuple):
@@ -98,29 +91,6 @@ def border_halfedges(F: Ints) -> Ints:
     return np.flatnonzero(twin == np.arange(len(twin)))
 
 
-def components(F: Ints, wall: Bools | None = None, twin: Ints | None = None) -> tuple[int, Ints]:
-    """Label faces that hang together over shared edges.
-
-    Parameters
-    ----------
-    F : (m, 3) int64
-    wall : (3 m,) bool, half-edges that don't connect
-    twin : (3 m,) int64, of the half-edges, where the caller has them
-
-    Returns
-    -------
-    n : int
-    component_of_face : (m,) int64
-    """
-    twin = edges(F).twin if twin is None else twin
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    if wall is not None:
-        h = h[~(wall[h] | wall[twin[h]])]
-    graph = coo_matrix((np.ones(len(h), np.int8), (h // 3, twin[h] // 3)), shape=(len(F), len(F)))
-    n, label = connected_components(graph, directed=False)
-    return int(n), label.astype(np.int64)
-
-
 def compact(F: Ints) -> tuple[Ints, Ints]:
     """Renumber the vertices that faces use, densely and in order.
 
@@ -134,43 +104,3 @@ def compact(F: Ints) -> tuple[Ints, Ints]:
     kept = np.flatnonzero(used)
     number = np.cumsum(used) - 1
     return number[F], kept
-
-
-def fans(F: Ints, twin: Ints | None = None) -> tuple[Ints, Ints]:
-    """Split every vertex at which faces meet in more than one fan.
-
-    Parameters
-    ----------
-    F : (m, 3) int64
-    twin : (3 m,) int64, of the half-edges, where the caller has them
-
-    Returns
-    -------
-    F : (m, 3) int64, into the split vertices
-    origin : (n,) int64, the old vertex of every new one
-    """
-    twin = edges(F).twin if twin is None else twin
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    t = twin[h]
-    same = F.ravel()[h] == F.ravel()[t]  # inconsistent orientation: both run the same way
-    rows = np.concatenate([h, next_halfedge(h)])
-    cols = np.concatenate([np.where(same, t, next_halfedge(t)), np.where(same, next_halfedge(t), t)])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(3 * len(F), 3 * len(F)))
-    n, fan = connected_components(graph, directed=False)
-    origin = np.empty(n, np.int64)
-    origin[fan] = F.ravel()
-    return fan.reshape(-1, 3).astype(np.int64), origin
-
-
-def is_disc(F: Ints) -> bool:
-    """Tell whether faces form one disc: connected, Euler number 1, one simple border loop."""
-    if not len(F):
-        return False
-    G, kept = compact(F)
-    e = edges(G)
-    if e.n_faces.max() > 2 or len(kept) - len(e.E) + len(G) != 1:
-        return False
-    border = e.E[e.n_faces == 1]
-    if np.bincount(border.ravel(), minlength=len(kept)).max(initial=0) > 2:
-        return False
-    return components(G)[0] == 1

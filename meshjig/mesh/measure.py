@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
+
+from meshjig.mesh.arrays import Floats, Ints
 
 __all__ = [
     "area_vectors",
@@ -19,8 +20,6 @@ __all__ = [
     "vertex_normals",
 ]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _AT_ONCE = 8192  # faces or edges
 

@@ -1,4 +1,4 @@
-"""Rays through the pieces."""
+"""Rays through triangles, by Embree."""
 
 from __future__ import annotations
 
@@ -6,33 +6,55 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.sampling import Soup
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
-__all__ = ["first_hit", "scene_of"]
-
-_SKIN = 1e-3  # mm; rays start this far from the surface, since Embree works in float32
+__all__ = ["RayScene"]
 
 
-def scene_of(s: Soup) -> Any:
-    """Ready all pieces for rays."""
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
+class RayScene:
+    """Triangles that are ready for rays; Embree works in float32.
 
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, s.V[s.F].astype(np.float32))
-    return scene
-
-
-def first_hit(scene: Any, s: Soup, P: Floats, direction: Floats) -> tuple[Ints, Floats]:
-    """Shoot rays from points of the surface; give the faces they meet, -1 for none, and the way there.
-
-    The way is measured to the plane of the face in double precision.
+    Parameters
+    ----------
+    V : (n, 3) float64
+    F : (m, 3) int64
+    robust : bool
+        Whether no ray slips through between two triangles; slower.
     """
-    origin = P + _SKIN * direction
-    face = np.asarray(scene.run(origin.astype(np.float32), direction.astype(np.float32)), np.int64)
-    toward = np.einsum("ij,ij->i", s.N[face], direction)
-    height = np.einsum("ij,ij->i", s.N[face], s.V[s.F[face, 0]] - P)
-    flat = np.abs(toward) < 1e-6
-    way = np.where(flat, np.inf, height / np.where(flat, 1.0, toward))
-    return np.where(way > 0, face, -1), way
+
+    def __init__(self, V: Floats, F: Ints, robust: bool = False) -> None:
+        from embreex.mesh_construction import TriangleMesh
+        from embreex.rtcore_scene import EmbreeScene
+
+        self._scene = EmbreeScene(robust=robust)
+        TriangleMesh(self._scene, V[F].astype(np.float32))
+
+    def first_face(self, origin: Floats, direction: Floats, reach: Floats | None = None) -> Ints:
+        """Give the first face that each ray meets, -1 for none, (k,).
+
+        Parameters
+        ----------
+        origin, direction : (k, 3)
+        reach : (k,), how far the rays go, in lengths of their direction
+        """
+        far = () if reach is None else (reach.astype(np.float32),)
+        return np.asarray(self._scene.run(_single(origin), _single(direction), *far), np.int64)
+
+    def first_distance(self, origin: Floats, direction: Floats) -> Floats:
+        """Give how far each ray goes to the first face, in lengths of its direction; huge for none, (k,)."""
+        return np.asarray(self._scene.run(_single(origin), _single(direction), query="DISTANCE"), np.float64)
+
+    def is_hidden(self, origin: Floats, direction: Floats, reach: Floats) -> Ints:
+        """Tell which rays meet anything within their reach, (k,) bool."""
+        found = self._scene.run(
+            _single(origin), _single(direction), dists=reach.astype(np.float32), query="OCCLUDED"
+        )
+        return found >= 0
+
+    def hits(self, origin: Floats, direction: Floats) -> dict[str, Any]:
+        """Give all that Embree says of the first hit: primID, tfar, u, v, Ng; each (k,) or (k, 3)."""
+        return self._scene.run(_single(origin), _single(direction), output=1)
+
+
+def _single(x: Floats) -> Any:
+    return np.ascontiguousarray(x, np.float32)

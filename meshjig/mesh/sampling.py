@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, interpolate
 from meshjig.mesh.types import Floats, Ints
@@ -64,13 +65,8 @@ def area_samples(s: Soup, n: int) -> Samples:
 
 def smooth_regions(s: Soup) -> Ints:
     """Number the parts of the surface between edges sharper than 25 degrees, (m,) int64, a number a face."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     twin = edges(s.F).twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
     a, b = h // 3, twin[h] // 3
     smooth = np.einsum("ij,ij->i", s.N[a], s.N[b]) > _SMOOTH
-    links = (a[smooth], b[smooth])
-    graph = coo_matrix((np.ones(len(links[0]), np.int8), links), shape=(len(s.F), len(s.F)))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    return connected(len(s.F), a[smooth], b[smooth])[1]

@@ -3,15 +3,12 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import edge_lengths
 
 __all__ = ["distances", "edge_graph", "shortest_way", "symmetric"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def edge_graph(V: Floats, F: Ints) -> Any:

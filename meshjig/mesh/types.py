@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.mesh import Mesh
 
 __all__ = [
     "GAP",
@@ -23,19 +23,7 @@ __all__ = [
     "Stitching",
 ]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
-
 GAP = -1  # the label of faces that belong to no piece
-
-
-@dataclass(frozen=True)
-class Mesh:
-    """A triangle mesh in mm: manifold, oriented outward, without unused vertices."""
-
-    V: Floats  # (n, 3)
-    F: Ints  # (m, 3)
 
 
 @dataclass(frozen=True)

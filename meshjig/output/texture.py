@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 

@@ -15,7 +15,8 @@ from meshjig.layout.interlock import interlock
 from meshjig.layout.layout import Layout, Parts
 from meshjig.layout.tiles import tile_layout
 from meshjig.layout.unique import LEAST_DIFFERENCE, clashes
-from meshjig.mesh.halfedges import border_halfedges, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh, Scan

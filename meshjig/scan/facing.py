@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, face_areas, interpolate, unit
 from meshjig.mesh.types import Floats, Ints
 

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.halfedges import border_halfedges, components, edges, next_halfedge
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges, edges, next_halfedge
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.scan.manifold import is_clean

@@ -9,7 +9,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from meshjig.errors import InputError
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, face_areas
 from meshjig.mesh.types import Bools, Floats, Ints
 

@@ -6,7 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.mesh.halfedges import border_halfedges, components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges, edges
 from meshjig.mesh.intersections import self_crossings
 from meshjig.mesh.types import Ints, Mesh, Scan
 from meshjig.scan.load import load

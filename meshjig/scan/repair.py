@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.halfedges import compact, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.manifold import is_clean, make_manifold

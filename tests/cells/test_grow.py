@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from meshjig.cells import cell_atlas, grow_cells
 from meshjig.errors import OptionError
-from meshjig.mesh.halfedges import components, edges, is_disc
+from meshjig.mesh.components import components, is_disc
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas, interpolate
 from meshjig.mesh.types import Mesh
 from tests.meshes import (

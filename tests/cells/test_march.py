@@ -8,7 +8,8 @@ from meshjig.cells.march import march
 from meshjig.cells.power import Field
 from meshjig.cells.refine import places, refine
 from meshjig.cells.surface import surface
-from meshjig.mesh.halfedges import edges, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas, interpolate
 from tests.meshes import cylinder, disc, sphere, torus
 

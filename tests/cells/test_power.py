@@ -6,7 +6,7 @@ from meshjig.cells.power import balance
 from meshjig.cells.sample_seeds import plant
 from meshjig.cells.smooth_distances import softened
 from meshjig.cells.surface import surface
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from tests.meshes import cylinder, disc, joined, moved, sphere, torus
 
 

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from meshjig.charts import build_atlas
 from meshjig.charts.transfer.transfer_chart import Carrier
 from meshjig.errors import ChartError, MeshjigError, OptionError
-from meshjig.mesh.halfedges import compact, edges, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import compact, edges
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Mesh
 from tests.charts.helpers import all_turn_left, corner_angles, signed_areas

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts.cuts import chains, cut_faces, cut_open
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from tests.meshes import cylinder, disc, torus
 
 Y_AND_LOOP = np.array([[0, 1], [1, 2], [2, 3], [2, 4], [6, 7], [5, 6], [5, 7]])

@@ -2,7 +2,7 @@ import pytest
 
 from meshjig.charts import build_atlas, single
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from meshjig.mesh.types import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.meshes import creased_box, cylinder, genus2, sphere, torus, two_components

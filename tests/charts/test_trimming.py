@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts import build_atlas, lift, trimming_curves
-from meshjig.mesh.halfedges import edges, fans
+from meshjig.mesh.components import fans
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Atlas, Mesh
 from tests.meshes import cylinder, disc, sphere, torus
 

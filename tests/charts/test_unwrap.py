@@ -3,7 +3,7 @@ import pytest
 
 from meshjig.charts.unwrap import unwrap
 from meshjig.errors import OptionError
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from tests.meshes import creased_box, cylinder, sphere, torus
 
 

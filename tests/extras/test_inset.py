@@ -8,7 +8,7 @@ from meshjig.extras.carve_clearance import carved
 from meshjig.extras.depth import Depth
 from meshjig.extras.inset import inset_surface
 from meshjig.mesh.booleans import arrays, body, sound
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.mesh.measure import mesh_volume
 from tests.check.pieces import box
 from tests.meshes import Shape, creased_box, genus2, joined, noisy, sphere, torus

@@ -8,7 +8,7 @@ from meshjig.errors import CutError
 from meshjig.layout.cells import cell_layout
 from meshjig.layout.interlock import interlock
 from meshjig.layout.unique import clashes
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.subdivide import refine_long_edges
 from meshjig.mesh.types import Mesh

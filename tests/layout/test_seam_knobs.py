@@ -9,7 +9,8 @@ import meshjig.layout.tiles
 from meshjig.cut import cut_curves, fold
 from meshjig.layout.interlock import interlock
 from meshjig.layout.tiles import tile_layout
-from meshjig.mesh.halfedges import border_halfedges, edge_keys, edges, is_disc, next_halfedge
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import border_halfedges, edge_keys, edges, next_halfedge
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.subdivide import refine_long_edges
 from meshjig.mesh.types import Mesh, Scan

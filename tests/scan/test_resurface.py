@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from meshjig.errors import InputError
-from meshjig.mesh.halfedges import border_halfedges, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import read_scan, resurface, self_crossings
 from meshjig.scan.manifold import is_clean

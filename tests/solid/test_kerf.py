@@ -6,7 +6,8 @@ import trimesh
 
 from meshjig.check import gaps, is_closed_as_stl, is_one_component, overlaps, self_intersections
 from meshjig.mesh.booleans import body
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from meshjig.solid import displacement, kerf, solidify
 from meshjig.solid.border_chains import border_chains
 from meshjig.solid.pieces import OUTER

@@ -15,7 +15,8 @@ from meshjig.charts.flatten.untangle import untangle
 from meshjig.charts.regularize import steady
 from meshjig.charts.segment.clean_labels import tidy
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import Edges, border_halfedges, compact, components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import Edges, border_halfedges, compact, edges
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.types import Mesh
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, interpolate
 
 __all__ = ["SourceUV", "is_as_loaded", "sample", "source_uv"]

@@ -7,7 +7,8 @@ from meshjig.charts.flatten.flatten import Method, border_is_simple, flat_share,
 from meshjig.charts.segment.dual_graph import dual
 from meshjig.charts.segment.patches import patches
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import compact, components, is_disc
+from meshjig.mesh.components import components, is_disc
+from meshjig.mesh.halfedges import compact
 
 __all__ = ["rescue"]
 

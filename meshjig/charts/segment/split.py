@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from meshjig.charts.segment.dual_graph import dual
 from meshjig.charts.segment.patches import patches
-from meshjig.mesh.halfedges import compact, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import compact
 
 __all__ = ["split"]
 

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.halfedges import Edges, components, edges, fans
+from meshjig.mesh.components import components, fans
+from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import area_vectors, sums
 
 __all__ = ["coarsen"]

@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 
 from meshjig.charts.transfer.coarsen import coarsen
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import Edges, edges, fans
+from meshjig.mesh.components import fans
+from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import vertex_normals
 
 __all__ = ["coarsened", "proxy"]

@@ -11,7 +11,8 @@ from meshjig.charts.transfer.proxy import coarsened
 from meshjig.charts.transfer.transfer_chart import Carrier
 from meshjig.charts.transfer.transfer_labels import transfer_labels
 from meshjig.mesh.closest_points import nearest
-from meshjig.mesh.halfedges import Edges, compact, components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import Edges, compact, edges
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Bools, Floats, Ints
 

@@ -19,7 +19,8 @@ from meshjig.charts.tubes.cut_annulus import meets_itself, ring_net, settle, unr
 from meshjig.charts.tubes.ring import flatten_ring, ring_stretch
 from meshjig.charts.tubes.tube_decomposition import Kind
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import compact, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, singular_values
 
 __all__ = ["FlatBand", "carried", "flat_band"]

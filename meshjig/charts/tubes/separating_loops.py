@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from meshjig.charts.tubes.cut_path import halfedges_along, left_corners
 from meshjig.charts.tubes.ends import Ends
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import border_halfedges, compact, components, next_halfedge
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.shortest_paths import edge_graph, shortest_way
 
 __all__ = ["across", "avoiding", "border_vertices", "divided"]

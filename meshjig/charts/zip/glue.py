@@ -7,7 +7,7 @@ from meshjig.charts.flatten.flatten import border_is_simple, flat_share, is_unfl
 from meshjig.charts.flatten.separate_border import part
 from meshjig.charts.flatten.slim import slim
 from meshjig.charts.flatten.untangle import untangle
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["glue"]

@@ -4,7 +4,8 @@ import shapely
 
 from meshjig.cells import cell_atlas, grow_cells
 from meshjig.cells.cell_mesh import CellMesh
-from meshjig.mesh.halfedges import compact, components
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, singular_values
 from meshjig.mesh.types import Mesh
 from tests.meshes import cylinder, disc, genus2, noisy, open_cup, sphere, torus

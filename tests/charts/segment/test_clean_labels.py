@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts.segment.clean_labels import tidy
-from meshjig.mesh.halfedges import components, edges, is_disc
+from meshjig.mesh.components import components, is_disc
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas
 from tests.meshes import disc, noisy, open_cup, sphere
 

@@ -5,7 +5,7 @@ from scipy.sparse.csgraph import connected_components
 
 from meshjig.charts.segment.neck_free import is_stout, stouter
 from meshjig.charts.segment.region import Regions
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from meshjig.mesh.measure import face_areas
 from tests.meshes import creased_box, disc
 

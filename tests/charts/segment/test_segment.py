@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from meshjig.charts.segment.accept import Judge
 from meshjig.charts.segment.conformal_distortion import Bend
 from meshjig.charts.segment.segment import segment
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from tests.meshes import closed_cylinder, creased_box, cylinder, genus2, half_sphere, saddle, sphere, torus
 
 

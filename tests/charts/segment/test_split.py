@@ -1,7 +1,7 @@
 import numpy as np
 
 from meshjig.charts.segment.split import split
-from meshjig.mesh.halfedges import components, is_disc
+from meshjig.mesh.components import components, is_disc
 from tests.meshes import cylinder
 
 

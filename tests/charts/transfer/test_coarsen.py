@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts.transfer.coarsen import coarsen
-from meshjig.mesh.halfedges import components, edges, fans
+from meshjig.mesh.components import components, fans
+from meshjig.mesh.halfedges import edges
 from tests.meshes import creased_box, cylinder, disc, genus2, noisy, open_cup, sphere, torus
 
 

@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 
 from meshjig.charts.transfer.proxy import proxy
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from meshjig.scan.resolution import decimate
 from tests.meshes import cylinder, genus2, half_sphere, noisy, open_cup, sphere, torus
 

@@ -6,7 +6,8 @@ from meshjig.charts.chart import Chart, plain
 from meshjig.charts.cuts import cut_open
 from meshjig.charts.transfer.transfer_chart import Carrier
 from meshjig.charts.transfer.transfer_charts import _carried
-from meshjig.mesh.halfedges import compact, edges, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import compact, edges
 from tests.charts.helpers import all_turn_left
 from tests.meshes import cylinder, noisy
 

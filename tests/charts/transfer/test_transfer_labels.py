@@ -5,7 +5,8 @@ from meshjig.charts.flatten.flatten import flatten
 from meshjig.charts.flatten.untangle import untangle
 from meshjig.charts.transfer.proxy import proxy
 from meshjig.charts.transfer.transfer_labels import transfer_labels, transfer_uv
-from meshjig.mesh.halfedges import components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas, singular_values
 from tests.charts.helpers import all_turn_left
 from tests.meshes import creased_box, disc, half_sphere, noisy, sphere

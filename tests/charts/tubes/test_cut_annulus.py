@@ -5,7 +5,7 @@ import pytest
 
 from meshjig.charts.tubes.cut_annulus import meets_itself, ring_net, settle, unroll
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import is_disc
+from meshjig.mesh.components import is_disc
 from tests.charts.helpers import all_turn_left, signed_areas
 from tests.charts.revolved import pole
 

@@ -6,7 +6,8 @@ import pytest
 from meshjig.charts.tubes.cut_annulus import meets_itself, ring_net, unroll
 from meshjig.charts.tubes.periodic import periodic, suits
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import compact, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, singular_values
 from tests.charts.helpers import all_turn_left
 from tests.charts.revolved import annulus, bent, cone, holed, limb, pole, vase

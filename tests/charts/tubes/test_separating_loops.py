@@ -6,7 +6,8 @@ import pytest
 from meshjig.charts.tubes.ends import rims, two_ends
 from meshjig.charts.tubes.separating_loops import across, divided
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import border_halfedges, compact, components, edges
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges, compact, edges
 from tests.charts.revolved import bent, cone, limb, pole, revolved, vase
 
 TUBES = {

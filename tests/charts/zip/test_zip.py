@@ -8,7 +8,8 @@ from meshjig.charts.segment.dual_graph import dual
 from meshjig.charts.segment.patches import patches
 from meshjig.charts.segment.split import split
 from meshjig.charts.zip.zip import zip_charts
-from meshjig.mesh.halfedges import compact, edges, is_disc
+from meshjig.mesh.components import is_disc
+from meshjig.mesh.halfedges import compact, edges
 from meshjig.mesh.measure import face_areas
 from tests.charts.helpers import all_turn_left
 from tests.meshes import closed_cylinder, cylinder, genus2, sphere, torus

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from meshjig.cut import overlay
-from meshjig.mesh.halfedges import components
+from meshjig.mesh.components import components
 from meshjig.tiling import chart_polygons, squares, tile_charts, tile_surface
 from meshjig.tiling.classic import classic
 from meshjig.tiling.domain import chart_periods, unrolled
