@@ -2,12 +2,15 @@
 
 import os
 import sys
-from typing import NoReturn
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # the time to import typing is time in which no signal is heard
+    from typing import NoReturn
 
 __all__ = ["main"]
 
 
-def main() -> NoReturn:
+def main() -> "NoReturn":
     """Run the command line."""
     if hasattr(os, "posix_spawn") and sys.executable:
         from meshjig.cli.front import run_in_front

@@ -29,11 +29,11 @@ from meshjig.cli.terminal import (
     tell_notes,
 )
 from meshjig.errors import OptionError
-from meshjig.runtime.parent import end_with_parent
+from meshjig.runtime.interpreter import end_with_parent
+from meshjig.runtime.messages import tell, tell_through
 from meshjig.runtime.read_ahead import ReadAhead
-from meshjig.runtime.worker_words import tell, tell_through
 
-__all__ = ["app", "run", "worker"]
+__all__ = ["app", "run", "run_behind_front"]
 
 app = typer.Typer(
     name="meshjig",
@@ -201,7 +201,7 @@ def view(
     with sentences(verbose, quiet):
         from meshjig.output.viewer.page import open_viewer
 
-        if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a worker
+        if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a run
             signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         page = open_viewer(directory)
         if as_json:
@@ -262,7 +262,7 @@ def run(words: Sequence[str]) -> NoReturn:
     os._exit(code)
 
 
-def worker(front: str, pipe: str, *words: str) -> NoReturn:
+def run_behind_front(front: str, pipe: str, *words: str) -> NoReturn:
     """Run the command line as the child of a process that ends it when asked to; see `run_in_front`."""
     end_with_parent(int(front))
     tell_through(int(pipe))

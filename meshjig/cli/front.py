@@ -1,7 +1,7 @@
 """The process in front of a run: it ends the run when asked to, in whatever native code it is, and clears up.
 
-It imports next to nothing, so that it listens from its first moments on. The run itself is its child, the
-worker, which is killed without being asked: what it had begun is known by what it told, and by the journal
+It imports next to nothing, so that it listens from its first moments on. The run itself is its child,
+which is killed without being asked: what it had begun is known by what it told, and by the journal
 beside its output folder.
 """
 
@@ -10,8 +10,11 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from types import FrameType
-from typing import NoReturn
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from types import FrameType
+    from typing import NoReturn
 
 __all__ = ["run_in_front"]
 
@@ -20,27 +23,25 @@ _CRASHES = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGBUS": 
 _SHOW_CURSOR = b"\r\x1b[K\x1b[?25h"  # a progress line may have hidden it
 
 _asked_by = 0  # the signal that asked for the end
-_worker = 0
+_run = 0  # the process id of the run
 
 
 def run_in_front() -> NoReturn:
     """Run the command line in a child process, and end with its exit code."""
-    from meshjig.runtime.signals import ENDING
-
-    for number in ENDING:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:  # as nohup wants it
-            signal.signal(number, _end_the_worker)
+            signal.signal(number, _end_the_run)
     _open_standard_streams()
-    reading, status = _run_worker()
+    reading, status = _wait_for_run()
     _leave(reading, status)
 
 
-def _end_the_worker(number: int, frame: FrameType | None) -> None:
+def _end_the_run(number: int, frame: FrameType | None) -> None:
     global _asked_by
     _asked_by = _asked_by or number
-    if _worker:
+    if _run:
         try:
-            os.kill(_worker, signal.SIGKILL)
+            os.kill(_run, signal.SIGKILL)
         except ProcessLookupError:  # it has just ended
             return
 
@@ -55,28 +56,28 @@ def _open_standard_streams() -> None:
             os.set_inheritable(number, True)
 
 
-def _run_worker() -> tuple[int, int]:
-    """Give what to read the worker's words from, and its status, once it has ended."""
-    global _worker
+def _wait_for_run() -> tuple[int, int]:
+    """Give the pipe with the run's messages, and its status, once it has ended."""
+    global _run
     from meshjig.runtime.interpreter import interpreter_command
 
     reading, writing = os.pipe()
     os.set_inheritable(writing, True)
     words = [str(os.getpid()), str(writing), *sys.argv[1:]]
-    command = interpreter_command("meshjig.cli.commands", "worker", *words)
-    _worker = os.posix_spawn(command[0], command, os.environ, setsigmask=[signal.SIGINT])
+    command = interpreter_command("meshjig.cli.commands", "run_behind_front", *words)
+    _run = os.posix_spawn(command[0], command, os.environ, setsigmask=[signal.SIGINT])
     os.close(writing)
     if _asked_by:
-        os.kill(_worker, signal.SIGKILL)
-    _, status = os.waitpid(_worker, 0)
-    _worker = 0
+        os.kill(_run, signal.SIGKILL)
+    _, status = os.waitpid(_run, 0)
+    _run = 0
     return reading, status
 
 
 def _leave(reading: int, status: int) -> NoReturn:
-    from meshjig.runtime.worker_words import read_words
+    from meshjig.runtime.messages import read_messages
 
-    told = list(read_words(reading))
+    told = list(read_messages(reading))
     targets = dict.fromkeys(str(value) for word, value in told if word == "target")
     written = {str(value) for word, value in told if word == "written"}
     ended = [int(value) for word, value in told if word == "ended"]

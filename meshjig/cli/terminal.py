@@ -12,7 +12,7 @@ from typing import Any
 import typer
 
 from meshjig.errors import MeshjigError, OutputError
-from meshjig.runtime.worker_words import folders_written
+from meshjig.runtime.messages import folders_written
 
 __all__ = [
     "BROKEN_PROMISE",

@@ -15,8 +15,7 @@ import threading
 from typing import IO, Any, cast
 
 from meshjig.errors import MeshjigError
-from meshjig.runtime.interpreter import interpreter_command
-from meshjig.runtime.parent import end_with_parent
+from meshjig.runtime.interpreter import end_with_parent, interpreter_command
 
 __all__ = ["Child", "allow", "idle_child", "keep_idle", "packed"]
 

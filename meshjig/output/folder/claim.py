@@ -18,8 +18,8 @@ from meshjig.errors import OutputError
 from meshjig.output.folder.exchange import exchange
 from meshjig.output.folder.lock import acquire, release
 from meshjig.output.folder.manifest import discard, read_manifest, stranger
+from meshjig.runtime.messages import tell
 from meshjig.runtime.signals import hold_signals
-from meshjig.runtime.worker_words import tell
 
 __all__ = ["Claim", "claimed", "settle"]
 

@@ -1,4 +1,4 @@
-"""What a worker of the command line tells the process in front of it, which outlives the worker."""
+"""What a run of the command line tells the process in front of it, which outlives it."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import json
 import os
 from collections.abc import Iterator
 
-__all__ = ["folders_written", "read_words", "tell", "tell_through"]
+__all__ = ["folders_written", "read_messages", "tell", "tell_through"]
 
 _pipe: int | None = None
 _written: list[str] = []
 
 
 def tell_through(pipe: int) -> None:
-    """In a worker: use this file descriptor."""
+    """Use this file descriptor."""
     global _pipe
     _pipe = pipe
     os.set_inheritable(pipe, False)
@@ -22,7 +22,7 @@ def tell_through(pipe: int) -> None:
 def tell(word: str, value: str | int) -> None:
     """Tell the process in front, if there is one, about a folder or an exit code.
 
-    The words are ``target``, a folder that is to be replaced; ``parent``, a folder that is made for one;
+    The messages are ``target``, a folder that is to be replaced; ``parent``, a folder that is made for one;
     ``written``, a target that is in place, whole; ``ended``, with the exit code.
     """
     if word == "written":
@@ -36,8 +36,8 @@ def folders_written() -> list[str]:
     return list(_written)
 
 
-def read_words(pipe: int) -> Iterator[tuple[str, str | int]]:
-    """Give what a worker that has ended has told."""
+def read_messages(pipe: int) -> Iterator[tuple[str, str | int]]:
+    """Give what a run that has ended has told."""
     os.set_blocking(pipe, False)
     told = b""
     while True:
