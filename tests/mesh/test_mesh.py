@@ -1,0 +1,36 @@
+"""A mesh unpacks, and keeps what follows from its faces."""
+
+import pickle
+
+import numpy as np
+
+from meshjig.mesh.mesh import Mesh
+from tests.meshes import half_sphere, joined, moved, sphere
+
+
+def test_a_mesh_unpacks_as_its_arrays():
+    V, F = sphere(200)
+    mesh = Mesh(V, F)
+    W, G = mesh
+    assert W is V
+    assert G is F
+
+
+def test_what_follows_is_worked_out_once_and_stays_behind_when_sent():
+    mesh = Mesh(*sphere(200))
+    assert mesh.edges is mesh.edges
+    sent = pickle.loads(pickle.dumps(mesh))
+    assert set(vars(sent)) == {"V", "F"}
+    np.testing.assert_array_equal(sent.F, mesh.F)
+
+
+def test_counts_and_measures():
+    two = Mesh(*joined(half_sphere(500), moved(sphere(500), [200, 0, 0])))
+    assert two.n_components == 2
+    rim = two.F.ravel()[two.borders]
+    assert len(rim) == two.is_border_vertex.sum() > 10
+    assert set(two.component_of_face[two.borders // 3].tolist()) == {int(two.component_of_face[0])}
+    np.testing.assert_allclose(np.linalg.norm(two.area_vectors, axis=1) / 2, two.areas)
+    middle = two.V[~two.is_border_vertex][:50]
+    outward = middle / np.linalg.norm(middle, axis=1, keepdims=True)
+    assert (np.einsum("ij,ij->i", outward, two.vertex_normals[~two.is_border_vertex][:50]) > 0.9).all()
