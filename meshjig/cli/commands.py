@@ -15,8 +15,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from meshjig.cli.config import read_options
-from meshjig.cli.flags import takes_options
+from meshjig.cli.config import Flags, read_options, takes_options
 from meshjig.cli.terminal import (
     BROKEN_PROMISE,
     USAGE,
@@ -70,7 +69,7 @@ def _root(
 @takes_options()
 def make(
     mesh: MeshPath,
-    flags: dict[str, Any],
+    flags: Flags,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
     ] = None,
@@ -117,7 +116,7 @@ def make(
 @takes_options("size", "pieces", "faces", "fill_holes", "cavities", "resurface", "seed")
 def info(
     mesh: MeshPath,
-    flags: dict[str, Any],
+    flags: Flags,
     charts: Annotated[bool, typer.Option("--charts", help="also cut it into charts and judge them")] = False,
     method: Annotated[str | None, typer.Option(help="how charts are made, as make's --charts")] = None,
     output: Annotated[
@@ -146,7 +145,7 @@ def info(
 @takes_options("thickness", "clearance", "min_wall")
 def check(
     paths: Annotated[list[Path], typer.Argument(metavar="DIR|FILES", help="a folder of pieces, or files")],
-    flags: dict[str, Any],
+    flags: Flags,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
@@ -169,7 +168,7 @@ def check(
 @app.command()
 @takes_options("process", "thickness", "clearance", "min_neck")
 def coupon(
-    flags: dict[str, Any],
+    flags: Flags,
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="where the coupon goes")
     ] = Path("meshjig-coupon"),

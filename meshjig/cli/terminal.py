@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any
 
@@ -115,7 +115,7 @@ def tell_broken(failures: dict[str, list[str]]) -> None:
         say(f"meshjig: broken promise: {promise}" + (f" ({shown})" if names else ""))
 
 
-def tell_notes(report: dict[str, Any]) -> None:
+def tell_notes(report: Mapping[str, Any]) -> None:
     """Say what is no broken promise, but what a maker should know."""
     made, options = len(report["pieces"]), report["options"]
     if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
@@ -145,11 +145,11 @@ def tell_notes(report: dict[str, Any]) -> None:
             say(f"meshjig: note: {fact['why']}")
 
 
-def as_lines(facts: dict[str, Any], indent: str = "") -> str:
+def as_lines(facts: Mapping[str, Any], indent: str = "") -> str:
     """Write facts for people, a line each."""
     lines = []
     for key, value in facts.items():
-        if isinstance(value, dict):
+        if isinstance(value, Mapping):
             lines.append(f"{indent}{key}:")
             lines.append(as_lines(value, indent + "  "))
         else:
