@@ -5,14 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
 __all__ = ["PAIRS", "Complex", "Motion", "Pair", "copies", "snapped_corners"]
 
 Complex = NDArray[np.complex128]  # points of the plane
 
 _SAME = 1e-6  # of a tile
-_STEPS = 4  # from neighbour to neighbour, to all ways of turning and to two translations
+_STEPS = 4  # from neighbour to neighbour, to all turns and to two translations
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def copies(symmetry: str, corners: Complex) -> tuple[list[Motion], Complex]:
 
     Returns
     -------
-    motions : list of Motion, one for every way that the tile is turned; the first leaves it in place
+    motions : list of Motion, one for each turn of the tile; the first leaves it in place
     translations : (2,) complex128, the second on the left of the first
     """
     steps = [pair.motion(corners) for pair in PAIRS[symmetry]]
