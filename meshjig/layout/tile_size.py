@@ -15,14 +15,14 @@ from meshjig.mesh.types import Atlas, Floats, Ints, RegionGraph
 from meshjig.tiling import (
     Fit,
     Placing,
-    Shapes,
+    TileShapes,
     Unit,
     chart_borders,
     chart_periods,
     chart_polygons,
     squares,
 )
-from meshjig.tiling.classic import classic
+from meshjig.tiling.template import classic
 
 __all__ = ["TileChoice", "choose_tiles"]
 
@@ -72,7 +72,7 @@ def choose_tiles(
     TileChoice
     """
     s = size or float(np.sqrt(face_areas(atlas.mesh.V, atlas.mesh.F).sum() / pieces))
-    shapes, polygons = Shapes(unit or squares(classic)), chart_polygons(atlas)
+    shapes, polygons = TileShapes(unit or squares(classic)), chart_polygons(atlas)
     fit = Fit(polygons, chart_periods(atlas), shapes, s, angle)
     trial = _Trial(atlas, polygons, shapes, share, least_border)
     found: list[tuple[float, float, int, TileChoice]] = []
@@ -93,7 +93,7 @@ class _Trial:
     """Plain tiles clipped by the charts, again and again."""
 
     def __init__(
-        self, atlas: Atlas, polygons: list[Any], shapes: Shapes, share: float, least_border: float
+        self, atlas: Atlas, polygons: list[Any], shapes: TileShapes, share: float, least_border: float
     ) -> None:
         import shapely
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Atlas, Ints
 from meshjig.options import Options
 from meshjig.runtime.progress import Stages
-from meshjig.tiling import Unit, tile_surface
+from meshjig.tiling import TileStyle, Unit, tile_surface
 from meshjig.tiling.families.polyomino import SQUARES
 from meshjig.tiling.registry import get_family
 
@@ -79,14 +79,10 @@ def _cut(
         tiling = tile_surface(
             atlas,
             choice.size,
-            pole=options.pole,
             unit=unit,
             placings=choice.placings,
-            min_neck=least_border,
-            random=_random(options),
-            random_style=options.random_style,
-            seed=options.seed,
-            turns=turns,
+            pole=options.pole,
+            style=TileStyle(least_border, _random(options), options.random_style, options.seed, turns),
         )
     with stages("cut"):
         cut = overlay(atlas, tiling.outlines)
@@ -95,7 +91,9 @@ def _cut(
         capstones = np.unique(cut.region[np.isin(cut.label, tiling.capstones)])
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece, capstones)
     if tiling.poles:
-        stitching = replace(stitching, facts={**stitching.facts, "poles": tiling.poles})
+        stitching = replace(
+            stitching, facts={**stitching.facts, "poles": [asdict(pole) for pole in tiling.poles]}
+        )
     return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)
 
 

@@ -1,11 +1,11 @@
-"""The rim of a chart, in order."""
+"""Borders, in order."""
 
 import numpy as np
 
 from meshjig.mesh.arrays import Ints
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 
-__all__ = ["border_loop", "longest_loop"]
+__all__ = ["border_loop", "border_loops", "closed_loops", "longest_loop"]
 
 
 def border_loop(F: Ints) -> Ints:
@@ -35,3 +35,38 @@ def longest_loop(start: Ints, end: Ints) -> Ints:
             after = follows.pop(after)
         longest = max(longest, loop, key=len)
     return np.array(longest, np.int64)
+
+
+def border_loops(F: Ints) -> list[Ints]:
+    """List the vertices of every border loop of a mesh, its faces on the left; each begins anywhere."""
+    rim = border_halfedges(F)
+    start = F.ravel()[rim]
+    return [start[loop] for loop in closed_loops(start, F.ravel()[next_halfedge(rim)])]
+
+
+def closed_loops(start: Ints, end: Ints) -> list[Ints]:
+    """Chain edges to closed loops.
+
+    Parameters
+    ----------
+    start, end : (k,) int64, the vertices of each edge; as many edges end in a vertex as start there
+
+    Returns
+    -------
+    list of (l,) int64
+        The edges of each loop, from its first one on; loops come in the order of their first edges.
+    """
+    after = np.empty(len(start), np.int64)
+    after[np.argsort(end, kind="stable")] = np.argsort(start, kind="stable")
+    follows = after.tolist()
+    seen = [False] * len(follows)
+    loops = []
+    for first in range(len(follows)):
+        loop, at = [], first
+        while not seen[at]:
+            seen[at] = True
+            loop.append(at)
+            at = follows[at]
+        if loop:
+            loops.append(np.array(loop, np.int64))
+    return loops

@@ -8,8 +8,8 @@ from meshjig.errors import OptionError
 from meshjig.options import Options
 from meshjig.output.plates.printers import parse_plate
 from meshjig.output.plates.write_plates import GAP
-from meshjig.tiling.outline import edge_ends
 from meshjig.tiling.registry import get_family
+from meshjig.tiling.unit import edge_ends
 
 __all__ = ["refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
 

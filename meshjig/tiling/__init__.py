@@ -1,17 +1,18 @@
 """Planar tilings of charts, one file a family."""
 
 from meshjig.tiling.domain import chart_borders, chart_periods, chart_polygons
-from meshjig.tiling.families.square import squares
+from meshjig.tiling.families.regular import squares
 from meshjig.tiling.fit import Fit
-from meshjig.tiling.placing import Placing
-from meshjig.tiling.shapes import Shapes
-from meshjig.tiling.tiles import Tiling, tile_charts, tile_surface
+from meshjig.tiling.net import Placing
+from meshjig.tiling.shapes import TileShapes
+from meshjig.tiling.tiles import TileStyle, Tiling, tile_charts, tile_surface
 from meshjig.tiling.unit import Unit
 
 __all__ = [
     "Fit",
     "Placing",
-    "Shapes",
+    "TileShapes",
+    "TileStyle",
     "Tiling",
     "Unit",
     "chart_borders",

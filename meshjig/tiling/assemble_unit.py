@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.tiling.unit import Unit
 
 __all__ = ["NoOtherSide", "assemble"]

@@ -1,17 +1,17 @@
-"""Check that a unit is a tiling: its tiles are whole, cover the plane and don't overlap."""
+"""Check that a unit is a tiling, and tell which of its tiles hold on to each other in the plane."""
 
 from typing import Any
 
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats, Ints
-from meshjig.tiling.outline import edge_curves, edge_ends, knob_sides, tile_outlines
-from meshjig.tiling.unit import Unit
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.tiling.unit import Unit, edge_curves, edge_ends, knob_sides, tile_outlines
 
-__all__ = ["check_unit"]
+__all__ = ["check_unit", "locked_edges"]
 
 _CLOSE = 1e-6  # of a tile
+_SLACK = 0.01  # radians that a border must curl back by
 
 
 def check_unit(unit: Unit) -> None:
@@ -43,6 +43,32 @@ def check_unit(unit: Unit) -> None:
         raise OptionError(str(error)) from None
     _check_tiles(outlines, area)
     _check_crossings(unit)
+
+
+def locked_edges(unit: Unit) -> Bools:
+    """Tell which edges lie between two tiles that can't be pulled apart in any one direction.
+
+    A tile can be pulled off its neighbour if all their border's normals point to one side; so the border,
+    all edges between the two, locks when its directions leave no half turn free.
+
+    Parameters
+    ----------
+    unit : Unit
+
+    Returns
+    -------
+    (e,) bool
+    """
+    borders: dict[tuple[int, ...], list[tuple[int, Floats]]] = {}
+    for edge, curve in enumerate(edge_curves(unit)):
+        (left, i, j), (right, k, m) = unit.sides[edge].tolist()
+        forth, back = (left, right, k - i, m - j), (right, left, i - k, j - m)
+        along = np.diff(curve if forth <= back else curve[::-1], axis=0)
+        borders.setdefault(min(forth, back), []).append((edge, along))
+    locked = np.zeros(len(unit.sides), bool)
+    for border in borders.values():
+        locked[[edge for edge, _ in border]] = _curls_back(np.vstack([along for _, along in border]))
+    return locked
 
 
 def _check_arrays(unit: Unit) -> None:
@@ -134,3 +160,9 @@ def _meet_at_ends(a: Any, b: Any) -> bool:
     met = shapely.get_coordinates(a.intersection(b))
     ends = [np.asarray(line.coords)[[0, -1]] for line in (a, b)]
     return all((np.linalg.norm(met[:, None] - end, axis=2).min(1) < _CLOSE).all() for end in ends)
+
+
+def _curls_back(along: Floats) -> bool:
+    angles = np.sort(np.arctan2(along[:, 1], along[:, 0]))
+    widest = np.diff(np.r_[angles, angles[0] + 2 * np.pi]).max()
+    return bool(widest < np.pi - _SLACK)

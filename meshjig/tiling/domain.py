@@ -1,13 +1,20 @@
-"""The region of the plane that a chart covers."""
+"""The region of the plane that a chart covers, and how it is stretched there on the surface."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
-from meshjig.mesh.types import Atlas, Floats, Ints
+from meshjig.mesh.types import Atlas
 
-__all__ = ["chart_borders", "chart_periods", "chart_polygons", "unrolled"]
+__all__ = ["Stretch", "chart_borders", "chart_periods", "chart_polygons", "chart_stretch", "unrolled"]
+
+Stretch = Callable[[Floats, Floats], Floats]
+
+WITHIN = (0.5, 2.0)  # what a face may tell; one beyond that is a sliver
 
 
 def chart_polygons(atlas: Atlas) -> list[Any]:
@@ -26,7 +33,9 @@ def chart_polygons(atlas: Atlas) -> list[Any]:
     polygons = []
     for c in range(atlas.n_charts):
         mine = chart == c
-        rings = [shapely.Polygon(atlas.uv[loop]) for loop in _loops(start[mine], end[mine])]
+        first, after = start[mine][::-1], end[mine][::-1]
+        loops = [first[loop] for loop in closed_loops(first, after) if len(loop) > 2]
+        rings = [shapely.Polygon(atlas.uv[loop]) for loop in loops]
         rings = [ring if ring.is_valid else ring.buffer(0) for ring in rings]
         rings.sort(key=lambda ring: -ring.area)
         outer = rings[0]
@@ -68,14 +77,44 @@ def unrolled(polygon: Any, period: float) -> Any:
     return shapely.union_all([shapely.transform(polygon, lambda xy, by=by: xy + by) for by in turns])
 
 
-def _loops(start: Ints, end: Ints) -> list[list[int]]:
-    following = dict(zip(start.tolist(), end.tolist(), strict=True))
-    loops = []
-    while following:
-        first, at = following.popitem()
-        loop = [first]
-        while at != first:
-            loop.append(at)
-            at = following.pop(at)
-        loops.append(loop)
-    return [loop for loop in loops if len(loop) > 2]
+def chart_stretch(atlas: Atlas, chart: int) -> Stretch:
+    """Measure a chart's faces, to ask the nearest one.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    chart : int
+
+    Returns
+    -------
+    callable
+        For points (k, 2) of the chart's plane, mm, and directions (k, 2) there: how many times as long as
+        in the plane a short line is on the surface, (k,) float64. Points may be periods away.
+    """
+    from scipy.spatial import cKDTree
+
+    faces = np.flatnonzero(atlas.chart_of_face == chart)
+    flat = atlas.uv[atlas.F_uv[faces]]
+    metric = _metrics(flat, atlas.mesh.V[atlas.mesh.F[faces]])
+    tree, low = cKDTree(flat.mean(1)), flat[..., 0].min()
+    period = 0.0 if atlas.period is None else float(atlas.period[chart])
+
+    def stretch(points: Floats, directions: Floats) -> Floats:
+        x = low + (points[:, 0] - low) % period if period else points[:, 0]
+        M = metric[tree.query(np.column_stack([x, points[:, 1]]))[1]]
+        squared = np.einsum("ki,kij,kj->k", directions, M, directions)
+        length = np.maximum(np.linalg.norm(directions, axis=1), 1e-12)
+        times: Floats = np.clip(np.sqrt(np.maximum(squared, 0.0)) / length, *WITHIN)
+        return times
+
+    return stretch
+
+
+def _metrics(flat: Floats, solid: Floats) -> Floats:
+    """Give the first fundamental forms (f, 2, 2) of faces from the plane (f, 3, 2) to space (f, 3, 3)."""
+    A = (solid[:, 1:] - solid[:, :1]).transpose(0, 2, 1)
+    (a, c), (b, d) = (flat[:, 1:] - flat[:, :1]).transpose(1, 2, 0)
+    det = a * d - b * c
+    inverse = np.array([[d, -b], [-c, a]]).transpose(2, 0, 1) / np.where(det == 0, np.inf, det)[:, None, None]
+    J = A @ inverse
+    return J.transpose(0, 2, 1) @ J

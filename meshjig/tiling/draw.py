@@ -4,9 +4,8 @@ from itertools import product
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
-from meshjig.tiling.outline import edge_curves, tile_outlines, tile_steps
-from meshjig.tiling.unit import Unit
+from meshjig.mesh.arrays import Floats
+from meshjig.tiling.unit import Unit, edge_curves, tile_outlines, tile_steps
 
 __all__ = ["draw_svg"]
 

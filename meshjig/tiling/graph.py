@@ -1,32 +1,18 @@
 """Put the curves of a net together to the planar graph that is cut, chart by chart."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Ints, Knobs, Outlines
-from meshjig.tiling.edge_curves import Curves
-from meshjig.tiling.net import Net
-from meshjig.tiling.template import Template
+from meshjig.mesh.arrays import Bools, Floats, Ints, ragged, ranks, row_of, starts
+from meshjig.mesh.types import Knobs, Outlines
+from meshjig.tiling.drawing import Drawing, EdgeCurves
+from meshjig.tiling.net import first_alike
 
-__all__ = ["BESIDE", "Drawing", "chart_graph", "joined"]
+__all__ = ["BESIDE", "chart_graph", "joined"]
 
 BESIDE = 1.0  # mm that cuts go on beyond a chart, less than the distance between charts
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A net whose edges are drawn."""
-
-    net: Net
-    nodes: Floats  # (n, 2), mm, where the net's nodes have come to lie
-    edges: Ints  # (k,), the net's first edges, which are drawn
-    curves: Curves  # of those
-    knobbed: Bools  # (k,), those with a knob
-    template: Template | None
-    period: float
 
 
 def chart_graph(polygon: Any, drawing: Drawing) -> tuple[Outlines, Knobs]:
@@ -59,12 +45,11 @@ def chart_graph(polygon: Any, drawing: Drawing) -> tuple[Outlines, Knobs]:
 
     # every point of every copy: what it is, whichever copy, and where
     count = curves.count[drawn]
-    begin = np.cumsum(count) - count
-    rank = np.arange(count.sum()) - np.repeat(begin, count)
-    source = np.repeat(curves.start[drawn], count) + rank
-    xy = curves.points[source] + np.stack([np.repeat(shift, count), np.zeros(len(source))], 1)
+    begin, rank, of_copy = starts(count), ranks(count), row_of(count)
+    source = ragged(curves.start[drawn], count)
+    xy = curves.points[source] + np.stack([shift[of_copy], np.zeros(len(source))], 1)
     identity = len(net.nodes) + source
-    key = identity * len(net.ends) + np.repeat(copies, count)
+    key = identity * len(net.ends) + copies[of_copy]
     for at, end in ((begin, 0), (begin + count - 1, 1)):
         node = net.ends[copies, end]
         xy[at] = drawing.nodes[node]
@@ -77,28 +62,28 @@ def chart_graph(polygon: Any, drawing: Drawing) -> tuple[Outlines, Knobs]:
     place[order] = np.arange(len(order))
     xy, identity, point = xy[order], identity[order], place[point]
 
-    kept = np.flatnonzero(rank < np.repeat(count, count) - 1)
+    kept = np.flatnonzero(rank < count[of_copy] - 1)
     beside = shapely.contains_xy(near, xy)
     kept = kept[beside[point[kept]] | beside[point[kept + 1]]]  # the rest could reach other charts
     segments = np.stack([point[kept], point[kept + 1]], 1)
     outside = ~shapely.contains_xy(polygon, xy[segments].mean(1))
-    copy = copies[np.repeat(np.arange(len(copies)), count)[kept]]
+    copy = copies[of_copy[kept]]
     in_turn = np.lexsort((copy, outside, source[kept]))
-    again = np.append(False, np.diff(source[kept][in_turn]) == 0)[: len(kept)]
-    in_turn = np.concatenate([in_turn[~again], in_turn[again]])  # the first ones follow each other
+    is_copy = np.append(False, np.diff(source[kept][in_turn]) == 0)[: len(kept)]
+    in_turn = np.concatenate([in_turn[~is_copy], in_turn[is_copy]])  # the first ones follow each other
     segments, copy, of_segment = segments[in_turn], copy[in_turn], source[kept][in_turn]
 
     used = np.zeros(len(xy), bool)
     used[segments.ravel()] = True
     number = np.cumsum(used) - 1
-    same_point = _first_alike(identity[used])
+    same_point = first_alike(identity[used])
     outlines = Outlines(
         xy[used],
         number[segments],
         net.left[copy],
         net.right[copy],
         same_point,
-        _first_alike(of_segment),
+        first_alike(of_segment),
     )
     return outlines, _knobs(drawing, identity[used], of_segment)
 
@@ -115,7 +100,7 @@ def joined(
     n_edges : sequence of int, the edges that each part was drawn of
     """
     n_points, n_segments, n_labels, n_before = (
-        np.cumsum([0, *counts])[:-1]
+        starts(np.array(counts, np.int64))
         for counts in (
             [len(o.points) for o, _ in parts],
             [len(o.segments) for o, _ in parts],
@@ -155,7 +140,7 @@ def _copies_near(near: Any, drawing: Drawing, row: Ints) -> Ints:
     return copies[touches]
 
 
-def _boxes(curves: Curves) -> Floats:
+def _boxes(curves: EdgeCurves) -> Floats:
     low, high = (f.reduceat(curves.points, curves.start[:-1], axis=0) for f in (np.minimum, np.maximum))
     return np.hstack([low, high])
 
@@ -172,11 +157,6 @@ def _knobs(drawing: Drawing, identity: Ints, of_segment: Ints) -> Knobs:
     span = np.searchsorted(first, neck)
     point = [np.searchsorted(identity, n_nodes + pair) for pair in (neck, head)]
     return Knobs(point[0], point[1], span, np.flatnonzero(drawing.knobbed))
-
-
-def _first_alike(values: Ints) -> Ints:
-    _, first, which = np.unique(values, return_index=True, return_inverse=True)
-    return first[which]
 
 
 def _shifted(arrays: Sequence[Ints | None], by: Ints) -> Ints:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints
 
 __all__ = ["Surroundings", "surroundings"]
 

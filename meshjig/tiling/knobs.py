@@ -1,29 +1,38 @@
 """Give straight edges their knobs, where there is room for one."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Ints
-from meshjig.tiling.chart_stretch import Stretch
-from meshjig.tiling.edge_curves import along
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.tiling.domain import Stretch
 from meshjig.tiling.knob_clearance import surroundings
-from meshjig.tiling.template import Template
+from meshjig.tiling.template import Template, along
 
-__all__ = ["CLEAR", "Chances", "choose_knobs"]
+__all__ = ["CLEAR", "Chances", "KnobRules", "choose_knobs"]
 
 CLEAR = 0.05  # of a tile's size, that knobs keep from the chart's border and from each other
 JITTER = 0.06  # of an edge, that a knob to either side is off its place by chance, when all is random
 SMALLER, LARGER = 0.85, 1.1  # how much knobs vary in size by chance, when all is random
 LEAN = 0.3  # of its height, that a knob's top is moved sideways then
 FARTHEST = 0.2  # of an edge, that a knob is moved from the middle for its own good
-LARGEST = 1.75  # times its size, that a knob grows for its neck to be as wide as asked, if not told otherwise
+LARGEST = 1.75  # times its size, that a knob grows for its neck to be as wide as asked, unless told otherwise
 STRETCH = 1.05  # of the neck asked for: across a knob, charts are stretched unevenly
 LEAST_HEAD = 1.3  # widths of the neck, after bending
 # the scale before and this one; place, None for the middle of what lies inside the chart; side
 _SCALES = ((np.inf, 1.0), (1.0, 0.85), (0.85, 0.7))
 _TRIES = [(*k, p, s) for k in _SCALES for p in (None, -0.12, 0.12) for s in (1.0, -1.0)]
+
+
+class Variations(NamedTuple):
+    """How each of several knobs is drawn by chance, (n,) each."""
+
+    side: Floats  # 1 or -1
+    place: Floats  # off the middle of its edge
+    lean: Floats
+    scale: Floats
 
 
 class Chances(NamedTuple):
@@ -32,10 +41,10 @@ class Chances(NamedTuple):
     seed: int
     chart: int
     random: float  # 0 to 1, how much knobs vary in place, size and lean; sides always do
-    turns: Ints | None = None  # how often each edge draws anew; 0 for those beyond its end
+    turns: Ints | None = None  # how often each edge draws afresh; 0 for those beyond its end
 
-    def draw(self, n: int) -> tuple[Floats, Floats, Floats, Floats]:
-        """Give n knobs their side, 1 or -1, their place off the middle, their lean and their scale."""
+    def draw(self, n: int) -> Variations:
+        """Draw the lots of n knobs."""
         turns = np.zeros(n, np.int64)
         if self.turns is not None:
             turns[: len(self.turns)] = self.turns[:n]
@@ -47,24 +56,29 @@ class Chances(NamedTuple):
             lean = self.random * LEAN * rng.uniform(-1, 1, n)
             scale = 1 + self.random * (rng.uniform(SMALLER, LARGER, n) - 1)
             drawn = np.where(turns >= turn, [side, place, lean, scale], drawn)
-        return drawn[0], drawn[1], drawn[2], drawn[3]
+        return Variations(*drawn)
+
+
+@dataclass(frozen=True)
+class KnobRules:
+    """Where the knobs of one chart may be, and how large."""
+
+    inside: Any  # shapely geometry, where knobs may be
+    min_neck: float  # mm
+    clearance: float  # mm, that knobs keep from edges and from each other
+    bend: Callable[[Floats], Floats]  # carries points (..., 2) of the plane; what is drawn is tested after it
+    period: float = 0.0  # mm, of a periodic chart
+    stretch: Stretch | None = None  # of the chart, for necks to be as wide as asked on the surface
+    largest: float = LARGEST  # times its size, that a knob may grow for its neck to be as wide as asked
 
 
 def choose_knobs(
-    inside: Any,
     ends: Floats,
-    template: Template,
     sides: Ints,
-    size: float,
-    *,
-    min_neck: float,
+    template: Template,
+    rules: KnobRules,
     chances: Chances,
-    bend: Callable[[Floats], Floats],
-    period: float = 0.0,
-    stretch: Stretch | None = None,
     open_to: Bools | None = None,
-    clearance: float | None = None,
-    largest: float = LARGEST,
 ) -> tuple[Bools, Floats]:
     """Draw edges with a knob each, where one fits.
 
@@ -73,19 +87,12 @@ def choose_knobs(
 
     Parameters
     ----------
-    inside : shapely geometry, where knobs may be
     ends : (e, 2, 2) float64, mm, before they are bent
-    template : Template
     sides : (e,) int64, 1: knob to the left first, -1: to the right first, 0: to either
-    size : float, mm, of a tile
-    min_neck : float, mm
+    template : Template
+    rules : KnobRules
     chances : Chances
-    bend : callable, carries points (..., 2) of the chart's plane; what is drawn is tested after it
-    period : float, mm, of a periodic chart, else 0
-    stretch : Stretch, optional, of the chart, for necks to be as wide as asked on the surface
     open_to : (e,) bool, optional, edges that may have a knob; all of them if not given
-    clearance : float, mm, optional, that knobs keep from edges and knobs; a share of the size if not given
-    largest : float, times its size, that a knob may grow for its neck to be as wide as asked
 
     Returns
     -------
@@ -95,19 +102,19 @@ def choose_knobs(
     import shapely
 
     n = len(ends)
-    chance, jitter, lean, vary = chances.draw(n)
-    first_side = np.where(sides == 0, chance, sides)
-    jitter = jitter * (sides == 0)
+    vary = chances.draw(n)
+    first_side = np.where(sides == 0, vary.side, sides)
+    jitter = vary.place * (sides == 0)
     straight = np.stack([np.linspace(0, 1, len(template.points)), np.zeros(len(template.points))], 1)
-    curves = bend(along(straight, ends))
-    need = STRETCH * min_neck / (template.neck_width * _length_at_middle(curves, stretch))
+    curves = rules.bend(along(straight, ends))
+    need = STRETCH * rules.min_neck / (template.neck_width * _length_at_middle(curves, rules.stretch))
     least = np.minimum(need, 1.0)
-    full = np.maximum(vary, np.minimum(need, largest))
+    full = np.maximum(vary.scale, np.minimum(need, rules.largest))
 
     chosen = np.zeros(n, bool)
-    around = surroundings(curves, CLEAR * size if clearance is None else clearance, period)
+    around = surroundings(curves, rules.clearance, rules.period)
     knob = slice(template.neck[0], template.neck[1] + 1)
-    open_edges, middle = _free_middles(inside, curves[:, [0, -1]])
+    open_edges, middle = _free_middles(rules.inside, curves[:, [0, -1]])
     if open_to is not None:
         open_edges = open_edges & open_to
     for before, factor, place, side in _TRIES:
@@ -118,9 +125,9 @@ def choose_knobs(
         room = np.minimum(FARTHEST, 0.48 - max(0.2, template.reach) * scale)
         at = middle[todo] if place is None else np.full(len(todo), place)
         at = np.clip(at + jitter[todo], -room, room)
-        shape = _shaped(template, side * first_side[todo], at, scale, lean[todo])
-        tried = bend(along(shape, ends[todo]))
-        fits = shapely.contains_properly(inside, shapely.linestrings(tried[:, knob]))
+        shape = _shaped(template, side * first_side[todo], at, scale, vary.lean[todo])
+        tried = rules.bend(along(shape, ends[todo]))
+        fits = shapely.contains_properly(rules.inside, shapely.linestrings(tried[:, knob]))
         fits &= _is_sound(tried, template)
         todo, tried = todo[fits], tried[fits]
         clear = ~around.hit(tried, todo, curves, chosen, knob)
@@ -133,9 +140,9 @@ def _length_at_middle(curves: Floats, stretch: Stretch | None) -> Floats:
     """Give how long straight edges (e, n, 2) would be, bent all along as they are in the middle; (e,), mm."""
     n = curves.shape[1] - 1
     a, b = int(0.4 * n), n - int(0.4 * n)
-    along = curves[:, b] - curves[:, a]
-    length: Floats = np.linalg.norm(along, axis=1) * n / (b - a)
-    return length if stretch is None else length * stretch((curves[:, a] + curves[:, b]) / 2, along)
+    ahead = curves[:, b] - curves[:, a]
+    length: Floats = np.linalg.norm(ahead, axis=1) * n / (b - a)
+    return length if stretch is None else length * stretch((curves[:, a] + curves[:, b]) / 2, ahead)
 
 
 def _free_middles(inside: Any, ends: Floats) -> tuple[Bools, Floats]:

@@ -1,20 +1,60 @@
 """Copies of a unit laid over a chart: corners, edges and tiles, each once."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
-from meshjig.tiling.placing import Placing
-from meshjig.tiling.unit import Unit
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.tiling.unit import Unit, edge_ends
 
-__all__ = ["GRAIN", "Net", "copies_over", "distinct", "lay_net", "rounded", "unwrapped"]
+__all__ = [
+    "GRAIN",
+    "Placing",
+    "TileNet",
+    "copies_over",
+    "distinct",
+    "first_alike",
+    "lay_net",
+    "rounded",
+    "row_keys",
+    "unwrapped",
+]
 
 GRAIN = 2.0**-18  # mm; coordinates are multiples of it, so that moving them by a period is exact
 
 
 @dataclass(frozen=True)
-class Net:
+class Placing:
+    """A map from a unit's lengths to a chart's mm: turned, scaled to the size, stretched, moved."""
+
+    size: float  # mm, the edge of a square as large as the mean tile
+    angle: float = 0.0  # degrees that the unit is turned by
+    origin: Floats = field(default_factory=lambda: np.zeros(2))  # (2,), mm, where the unit's (0, 0) goes
+    stretch: float = 1.0  # what u is scaled by after turning, and v by its inverse
+    period: float = 0.0  # mm along u after which the tiling repeats; 0 where it need not
+    wrap: tuple[int, int] = (0, 0)  # the translations that make up one period
+
+    @property
+    def matrix(self) -> Floats:
+        """The map's linear part, (2, 2): row vectors are multiplied from the left."""
+        c, s = np.cos(np.radians(self.angle)), np.sin(np.radians(self.angle))
+        turn = np.array([[c, s], [-s, c]])
+        linear: Floats = self.size * turn * np.array([self.stretch, 1 / self.stretch])
+        return linear
+
+    def __call__(self, points: Floats) -> Floats:
+        """Carry points (..., 2) from the unit's plane to the chart's."""
+        placed: Floats = points @ self.matrix + self.origin
+        return placed
+
+    def back(self, points: Floats) -> Floats:
+        """Carry points (..., 2) from the chart's plane to the unit's."""
+        lengths: Floats = (points - self.origin) @ np.linalg.inv(self.matrix)
+        return lengths
+
+
+@dataclass(frozen=True)
+class TileNet:
     """Corners, edges and tiles over one chart.
 
     Where the chart is periodic, nodes and edges may be copies of each other, whole periods apart; a
@@ -39,7 +79,7 @@ def rounded(points: Floats) -> Floats:
     return whole
 
 
-def lay_net(unit: Unit, placing: Placing, bounds: Floats, margin: float) -> Net:
+def lay_net(unit: Unit, placing: Placing, bounds: Floats, margin: float) -> TileNet:
     """Lay copies of a unit over a box.
 
     Parameters
@@ -51,9 +91,9 @@ def lay_net(unit: Unit, placing: Placing, bounds: Floats, margin: float) -> Net:
 
     Returns
     -------
-    Net, with every edge that comes into the box
+    TileNet, with every edge that comes into the box
     """
-    at = unit.corners[unit.ends[..., 0]] + unit.ends[..., 1:] @ unit.translations
+    at = edge_ends(unit)
     drawn = np.concatenate([at.reshape(-1, 2), *(unit.curves or ())])
     box = np.asarray(bounds) + margin * np.array([-1, -1, 1, 1])
     copies = copies_over(unit, drawn, placing, box)
@@ -69,10 +109,10 @@ def lay_net(unit: Unit, placing: Placing, bounds: Floats, margin: float) -> Net:
     nodes[:, 0] += corner_turns * placing.period
     tiles, tile = distinct(unwrapped(sides.reshape(-1, 3), placing.wrap)[0])
     left, right = tile.reshape(-1, 2).T
-    first_edge = _firsts(home)
-    return Net(
+    first_edge = first_alike(row_keys(home)[0])
+    return TileNet(
         nodes=nodes,
-        first_node=_firsts(corner_home),
+        first_node=first_alike(row_keys(corner_home)[0]),
         ends=node.reshape(-1, 2),
         left=left,
         right=right,
@@ -115,17 +155,19 @@ def unwrapped(rows: Ints, wrap: tuple[int, int]) -> tuple[Ints, Ints]:
 
 def distinct(rows: Ints) -> tuple[Ints, Ints]:
     """Give the distinct rows (k, 3), and the one that each row is."""
-    _, first, which = np.unique(_keys(rows), return_index=True, return_inverse=True)
+    _, first, which = np.unique(row_keys(rows)[0], return_index=True, return_inverse=True)
     return rows[first], which
 
 
-def _firsts(rows: Ints) -> Ints:
-    """Give the first row that is like each row, (k,)."""
-    _, first, which = np.unique(_keys(rows), return_index=True, return_inverse=True)
+def first_alike(values: Ints) -> Ints:
+    """Give the place of the first value that is like each value, (k,)."""
+    _, first, which = np.unique(values, return_index=True, return_inverse=True)
     return first[which]
 
 
-def _keys(rows: Ints) -> Ints:
+def row_keys(rows: Ints) -> tuple[Ints, int]:
+    """Give one number for every row (k, 3), alike for rows that are alike, and what all of them lie below."""
     low = rows.min(0)
     span = rows.max(0) - low + 1
-    return ((rows[:, 0] - low[0]) * span[1] + rows[:, 1] - low[1]) * span[2] + rows[:, 2] - low[2]
+    key = ((rows[:, 0] - low[0]) * span[1] + rows[:, 1] - low[1]) * span[2] + rows[:, 2] - low[2]
+    return key, int(span.prod())

@@ -1,24 +1,33 @@
-"""All tilings by name: our own, a user's drawing, and those of other packages."""
+"""All tilings by name: our own, a user's drawing, and those of other packages.
 
+Another package brings a tiling by an entry point of the group ``meshjig.tilings``: a function that takes
+``seed`` and ``columns``, and gives a `Unit`. The tiling has the entry point's name, and is told of by the
+first line of the function's docstring.
+"""
+
+import logging
 from collections.abc import Callable
 from difflib import get_close_matches
+from importlib.metadata import EntryPoint, entry_points
 from typing import NamedTuple
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats
-from meshjig.tiling.classic import classic
+from meshjig.mesh.arrays import Floats
+from meshjig.tiling.check_unit import check_unit
 from meshjig.tiling.families import escher
-from meshjig.tiling.families.hexagon import hexagons
 from meshjig.tiling.families.isohedral import isohedral
-from meshjig.tiling.families.macro import macro
 from meshjig.tiling.families.polyomino import polyomino
-from meshjig.tiling.families.square import squares
-from meshjig.tiling.plugins import describe_plugins, plugin_names, plugin_unit
-from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.families.regular import hexagons, macro, squares
 from meshjig.tiling.svg.user_unit import user_unit
+from meshjig.tiling.template import classic, rectangular
 from meshjig.tiling.unit import Unit
 
 __all__ = ["family_names", "get_decor", "get_family"]
+
+
+GROUP = "meshjig.tilings"
+
+_log = logging.getLogger(__name__)
 
 
 class _Family(NamedTuple):
@@ -65,9 +74,9 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
         return user_unit(name)
     if _figure(name):
         return escher.unit(_figure(name))
-    if name in plugin_names():
-        return plugin_unit(name, seed, columns)
-    known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *plugin_names(), "FILE.svg"]
+    if name in _plugins():
+        return _plugin_unit(name, seed, columns)
+    known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *sorted(_plugins()), "FILE.svg"]
     close = get_close_matches(name.lower(), [*known, "isohedral:IH01"], n=1)
     raise OptionError(
         f"there is no tiling {name!r}" + (f"; did you mean {close[0]}?" if close else ""),
@@ -106,7 +115,7 @@ def family_names() -> list[tuple[str, str]]:
         ("isohedral:IHnn", "one shape in the symmetry of a type from IH01 to IH93"),
         ("isohedral:IHnn:FILE.svg", "the same with edges that you draw, each an open path"),
         ("FILE.svg", "your own outline, or several that tile together"),
-        *(plugin for plugin in describe_plugins() if plugin[0] not in _OWN),
+        *(plugin for plugin in _describe_plugins() if plugin[0] not in _OWN),
     ]
 
 
@@ -119,3 +128,62 @@ def _figure(name: str) -> str:
     if name == _ESCHER.removesuffix(":"):
         return escher.names()[0]
     return name.removeprefix(_ESCHER) if name in _figures() else ""
+
+
+def _plugin_unit(name: str, seed: int, columns: int | None) -> Unit:
+    """Ask another package for its tiling, and check that it is one.
+
+    Parameters
+    ----------
+    name : str, a name in `_plugins`
+    seed : int
+    columns : int, optional
+        Both are handed on as keywords.
+
+    Raises
+    ------
+    OptionError
+        The package fails, or what it gives is no tiling.
+    """
+    point = _plugins()[name]
+    try:
+        unit = point.load()(seed=seed, columns=columns)
+        if not isinstance(unit, Unit):
+            raise TypeError(f"it gives {type(unit).__name__} where Unit is needed")
+        check_unit(unit)
+    except Exception as error:
+        raise OptionError(
+            f"the tiling {name} ({_source(point)}) does not work: {_reason(error)}",
+            hint="choose another tiling, or tell its author",
+        ) from error
+    return unit
+
+
+def _describe_plugins() -> list[tuple[str, str]]:
+    """List the tilings of other packages that load; those that don't are named in a warning.
+
+    Returns
+    -------
+    list of (str, str), name and one line about it
+    """
+    described = []
+    for name, point in sorted(_plugins().items()):
+        try:
+            first_line = (point.load().__doc__ or "").strip().split("\n")[0]
+        except Exception as error:
+            _log.warning("the tiling %s (%s) can't be loaded: %s", name, _source(point), _reason(error))
+        else:
+            described.append((name, first_line or f"from {_source(point)}"))
+    return described
+
+
+def _plugins() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=GROUP)}
+
+
+def _source(point: EntryPoint) -> str:
+    return f"package {point.dist.name}" if point.dist else point.value
+
+
+def _reason(error: Exception) -> str:
+    return f"{error}" if isinstance(error, OptionError) else f"{type(error).__name__}: {error}"

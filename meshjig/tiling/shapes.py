@@ -4,13 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
-from meshjig.tiling.net import copies_over, distinct, lay_net, unwrapped
-from meshjig.tiling.outline import edge_ends, tile_outlines
-from meshjig.tiling.placing import Placing
-from meshjig.tiling.unit import Unit
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.tiling.net import Placing, copies_over, distinct, lay_net, row_keys, unwrapped
+from meshjig.tiling.unit import Unit, edge_ends, tile_outlines
 
-__all__ = ["Laid", "Shapes"]
+__all__ = ["Laid", "TileShapes"]
 
 COARSE = 0.03  # of a tile, that the curve of an edge may be off
 SAMPLES = 24  # along the edge of a square as large as the mean tile
@@ -26,7 +24,7 @@ class Laid(NamedTuple):
     of_point: Ints  # (k,), the tile at each of the points asked for
 
 
-class Shapes:
+class TileShapes:
     """The tiles of a unit with plain edges.
 
     Parameters
@@ -79,14 +77,11 @@ class Shapes:
 
         Returns
         -------
-        (s, t) int64, tiles numbered anew for every shift; 0 where one holds no point
+        (s, t) int64, tiles numbered afresh for every shift; 0 where one holds no point
         """
         moved = points + (shifts @ self.unit.translations @ placing.matrix)[:, None]
         rows = unwrapped(self._tile_at(placing, moved), placing.wrap)[0]
-        low = rows.min(0)
-        span = rows.max(0) - low + 1
-        key = ((rows[:, 0] - low[0]) * span[1] + rows[:, 1] - low[1]) * span[2] + rows[:, 2] - low[2]
-        most = int(span.prod())
+        key, most = row_keys(rows)
         key += np.repeat(np.arange(len(shifts)), len(points)) * most
         return np.bincount(key, minlength=len(shifts) * most).reshape(len(shifts), most)
 

@@ -1,31 +1,41 @@
 """Tile the charts of an atlas with pieces that interlock."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
-from meshjig.tiling.chart_stretch import Stretch, chart_stretch
-from meshjig.tiling.classic import classic
-from meshjig.tiling.domain import chart_periods, chart_polygons, unrolled
-from meshjig.tiling.edge_curves import POINT_DISTANCE, Curves, shaped_curves
-from meshjig.tiling.families.square import squares
-from meshjig.tiling.graph import BESIDE, Drawing, chart_graph, joined
-from meshjig.tiling.knobs import CLEAR, Chances, choose_knobs
-from meshjig.tiling.net import Net, lay_net, rounded
-from meshjig.tiling.placing import Placing, placings_in_the_middle
-from meshjig.tiling.poles.caps import Cap, close_pole, drawn_cap
-from meshjig.tiling.poles.polar_plan import PoleStyle
-from meshjig.tiling.poles.poles import Pole, find_poles
-from meshjig.tiling.template import Template
-from meshjig.tiling.unit import Unit
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.types import Atlas, Knobs, Outlines
+from meshjig.tiling.domain import chart_periods, chart_polygons, chart_stretch, unrolled
+from meshjig.tiling.drawing import draw_knobs, draw_shapes, fine_template
+from meshjig.tiling.families.regular import squares
+from meshjig.tiling.fit import placings_in_the_middle
+from meshjig.tiling.graph import BESIDE, chart_graph, joined
+from meshjig.tiling.knobs import CLEAR, Chances, KnobRules
+from meshjig.tiling.net import Placing, TileNet, lay_net
+from meshjig.tiling.poles.caps import PoleFacts, close_pole, drawn_cap, pole_facts
+from meshjig.tiling.poles.plan import PoleStyle
+from meshjig.tiling.poles.poles import find_poles
+from meshjig.tiling.template import classic
+from meshjig.tiling.unit import Unit, edge_ends
 from meshjig.tiling.warp import WarpStyle, random_warp
 
-__all__ = ["Tiling", "tile_charts", "tile_surface"]
+__all__ = ["TileStyle", "Tiling", "tile_charts", "tile_surface"]
 
-PARTS = 5  # cubics or sides that a knob's edge is drawn with
-LONGER = 1.7  # times as long as a straight edge is one with a knob
+POINTS = 80  # of a template, a part
+
+
+@dataclass(frozen=True)
+class TileStyle:
+    """How tiles and their knobs are drawn."""
+
+    min_neck: float = 0.0  # mm
+    random: float = 0.0  # 0 to 1, how far tiles are bent, and knobs vary
+    random_style: WarpStyle = "bspline"
+    seed: int = 0
+    turns: Ints | None = None  # (e,), how often each edge, as Knobs.edge counts them, draws its knob afresh
 
 
 class Tiling(NamedTuple):
@@ -34,7 +44,16 @@ class Tiling(NamedTuple):
     outlines: Outlines
     knobs: Knobs
     capstones: Ints  # (k,), labels of charts that are one tile and stay it
-    poles: list[dict[str, Any]]  # how each was closed
+    poles: list[PoleFacts]  # how each was closed
+
+
+class _Part(NamedTuple):
+    """What is cut of one chart."""
+
+    outlines: Outlines
+    knobs: Knobs
+    n_tiles: int
+    n_edges: int
 
 
 def tile_charts(
@@ -77,17 +96,8 @@ def tile_charts(
     knobs : Knobs
         None where edges interlock by their shape.
     """
-    tiling = tile_surface(
-        atlas,
-        size,
-        unit=unit,
-        placings=placings,
-        min_neck=min_neck,
-        random=random,
-        random_style=random_style,
-        seed=seed,
-        turns=turns,
-    )
+    style = TileStyle(min_neck, random, random_style, seed, turns)
+    tiling = tile_surface(atlas, size, unit=unit, placings=placings, style=style)
     return tiling.outlines, tiling.knobs
 
 
@@ -95,14 +105,10 @@ def tile_surface(
     atlas: Atlas,
     size: float,
     *,
-    pole: PoleStyle | None = None,
     unit: Unit | None = None,
     placings: Sequence[Placing] | None = None,
-    min_neck: float = 0.0,
-    random: float = 0.0,
-    random_style: WarpStyle = "bspline",
-    seed: int = 0,
-    turns: Ints | None = None,
+    pole: PoleStyle | None = None,
+    style: TileStyle | None = None,
 ) -> Tiling:
     """Cover every chart with tiles, and close the poles beyond rings.
 
@@ -112,115 +118,86 @@ def tile_surface(
 
     Parameters
     ----------
+    atlas, size, unit, placings
+        As for `tile_charts`. Edges are counted caps last.
     pole : "wedge" or "capstone", optional
         If not given, caps are tiled as other charts are.
-    atlas, size, unit, placings, min_neck, random, random_style, seed, turns
-        As for `tile_charts`. Edges are counted caps last.
+    style : TileStyle
 
     Returns
     -------
     Tiling
     """
-    unit = unit or squares(classic)
+    unit, style = unit or squares(classic), style or TileStyle()
     polygons, periods = chart_polygons(atlas), chart_periods(atlas)
     if placings is None:
         placings = placings_in_the_middle(unit, polygons, periods, size)
-    rng = np.random.default_rng(seed)
-    template = _template(unit, size)
+    tiler = _Tiler(atlas, size, unit, style)
     caps = {one.cap: one for one in find_poles(atlas)} if pole else {}
     order = sorted(range(atlas.n_charts), key=lambda chart: (chart in caps, chart))
-    parts: dict[int, tuple[Outlines, Knobs]] = {}
-    nets: dict[int, Net] = {}
-    n_tiles: dict[int, int] = {}
     first: dict[int, int] = {}  # label of each chart
-    n_edges = [0]
+    parts: dict[int, _Part] = {}
     capstones: list[int] = []
-    facts: list[dict[str, Any]] = []
+    facts: list[PoleFacts] = []
     for chart in order:
-        polygon, placing = polygons[chart], placings[chart]
-        again = None if turns is None else turns[sum(n_edges) :]
-        chances = Chances(seed, len(n_edges), random, again)
-        first[chart] = sum(n_tiles.values())
+        first[chart] = sum(part.n_tiles for part in parts.values())
+        chances = tiler.chances([part.n_edges for part in parts.values()])
         if pole and chart in caps:
             ring = caps[chart].ring
-            cap = close_pole(caps[chart], polygon, (nets[ring], parts[ring][0]), size, pole)
-            facts.append(_closed(caps[chart], cap))
+            laid = tiler.nets[ring], parts[ring].outlines
+            cap = close_pole(caps[chart], polygons[chart], laid, size, pole)
+            facts.append(pole_facts(caps[chart], cap))
             if cap is not None:
                 ring_label = first[ring] - first[chart]
-                parts[chart] = drawn_cap(polygon, cap, ring_label, unit, size, min_neck, chances)
-                n_tiles[chart] = cap.net.n_own
-                n_edges.append(len(cap.net.ends))
+                outlines, knobs = drawn_cap(cap, ring_label, unit, size, style.min_neck, chances)
+                parts[chart] = _Part(outlines, knobs, cap.net.n_own, len(cap.net.ends))
                 capstones += [first[chart]] if cap.is_one_piece else []
                 continue
-        bounds = np.array(polygon.bounds)
-        net = lay_net(unit, placing, bounds, size / 2 + BESIDE)
-        warp = random_warp(bounds, size, random, random_style, rng, placing.period) if random else None
-        stretch = chart_stretch(atlas, chart)
-        drawing = _draw(polygon, unit, placing, net, warp or _same, stretch, template, min_neck, chances)
-        parts[chart], nets[chart] = chart_graph(polygon, drawing), net
-        n_tiles[chart] = net.n_tiles
-        n_edges.append(len(drawing.edges))
-    outlines, knobs = joined(list(parts.values()), list(n_tiles.values()), n_edges[1:])
+        parts[chart] = tiler.tile(chart, polygons[chart], placings[chart], chances)
+    outlines, knobs = joined(
+        [(part.outlines, part.knobs) for part in parts.values()],
+        [part.n_tiles for part in parts.values()],
+        [part.n_edges for part in parts.values()],
+    )
     return Tiling(outlines, knobs, np.array(capstones, np.int64), facts)
 
 
-def _closed(pole: Pole, cap: Cap | None) -> dict[str, Any]:
-    """Say how a pole was closed."""
-    by, meeting, why = "tiles", 0, "the cap is better tiled like any other chart"
-    if cap is not None:
-        by, meeting, why = "capstone" if cap.plan.capstone else "wedge", cap.meeting, cap.plan.why
-    return {"chart": pole.cap, "ring": pole.ring, "closed_by": by, "meeting": meeting, "why": why}
+class _Tiler:
+    """Draws charts one by one; what it draws by chance depends on those before."""
 
+    def __init__(self, atlas: Atlas, size: float, unit: Unit, style: TileStyle) -> None:
+        self.atlas, self.size, self.unit, self.style = atlas, size, unit, style
+        self.rng = np.random.default_rng(style.seed)
+        self.nets: dict[int, TileNet] = {}
+        longest = size * float(np.linalg.norm(np.diff(edge_ends(unit), axis=1), axis=2).max())
+        self.template = None if unit.template is None else fine_template(unit.template, longest, POINTS)
 
-def _draw(
-    polygon: Any,
-    unit: Unit,
-    placing: Placing,
-    net: Net,
-    bend: Callable[[Floats], Floats],
-    stretch: Stretch,
-    template: Template | None,
-    min_neck: float,
-    chances: Chances,
-) -> Drawing:
-    """Bend a net and draw its edges."""
-    import shapely
+    def chances(self, n_edges: list[int]) -> Chances:
+        """Give the chances of the chart that comes after others, by the edges of those."""
+        turns = None if self.style.turns is None else self.style.turns[sum(n_edges) :]
+        return Chances(self.style.seed, len(n_edges) + 1, self.style.random, turns)
 
-    edges = np.unique(net.first_edge)
-    if template is None:
-        knobbed: Bools = np.zeros(len(edges), bool)
-        curves = shaped_curves(unit, placing, net, edges, bend)
-    else:
-        inside = shapely.buffer(unrolled(polygon, placing.period), -CLEAR * placing.size)
-        shapely.prepare(inside)
-        sides: Ints = np.zeros(len(unit.ends), np.int64) if unit.knob_side is None else unit.knob_side
-        knobbed, drawn = choose_knobs(
-            inside,
-            net.nodes[net.ends[edges]],
-            template,
-            sides[net.kind[edges]],
-            placing.size,
-            min_neck=min_neck,
-            chances=chances,
-            bend=bend,
-            period=placing.period,
-            stretch=stretch,
-        )
-        n = drawn.shape[1]
-        curves = Curves(drawn.reshape(-1, 2), np.arange(len(edges) + 1) * n)
-    curves = Curves(rounded(curves.points), curves.start)
-    first = net.first_node
-    nodes = rounded(bend(net.nodes[first])) + net.nodes - net.nodes[first]
-    return Drawing(net, nodes, edges, curves, knobbed, template, placing.period)
+    def tile(self, chart: int, polygon: Any, placing: Placing, chances: Chances) -> _Part:
+        """Lay tiles over a chart, bend them, and draw their edges."""
+        import shapely
 
-
-def _template(unit: Unit, size: float) -> Template | None:
-    """Draw the knob with about a point every 0.6 mm of the longest edge."""
-    if unit.template is None:
-        return None
-    ends = unit.corners[unit.ends[..., 0]] + unit.ends[..., 1:] @ unit.translations
-    longest = size * float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).max())
-    return unit.template(int(np.clip(np.ceil(LONGER * longest / POINT_DISTANCE / PARTS), 4, 80)))
+        bounds, style = np.array(polygon.bounds), self.style
+        net = lay_net(self.unit, placing, bounds, self.size / 2 + BESIDE)
+        self.nets[chart] = net
+        warp = None
+        if style.random:
+            warp = random_warp(bounds, self.size, style.random, style.random_style, self.rng, placing.period)
+        bend = warp or _same
+        if self.template is None:
+            drawing = draw_shapes(net, self.unit, placing, bend)
+        else:
+            clearance = CLEAR * placing.size
+            inside = shapely.buffer(unrolled(polygon, placing.period), -clearance)
+            shapely.prepare(inside)
+            stretch = chart_stretch(self.atlas, chart)
+            rules = KnobRules(inside, style.min_neck, clearance, bend, placing.period, stretch)
+            drawing = draw_knobs(net, self.unit, self.template, rules, chances)
+        return _Part(*chart_graph(polygon, drawing), net.n_tiles, len(drawing.edges))
 
 
 def _same(points: Floats) -> Floats:

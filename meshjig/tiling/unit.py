@@ -1,12 +1,17 @@
-"""What is repeated: a few tiles whose copies by two translations cover the plane."""
+"""What is repeated: a few tiles whose copies by two translations cover the plane; their edges, outlines."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from meshjig.mesh.types import Floats, Ints
-from meshjig.tiling.template import Template
+import numpy as np
 
-__all__ = ["Unit"]
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.tiling.template import Template, along
+
+__all__ = ["Step", "Unit", "edge_curves", "edge_ends", "knob_sides", "tile_outlines", "tile_steps"]
+
+_POINTS = 8  # a part of a knob, fine enough for a drawing
 
 
 @dataclass(frozen=True)
@@ -30,3 +35,124 @@ class Unit:
 
     knob_side: Ints | None = None
     """(e,), 1: an edge's knob points to its left, -1: to its right, 0: to either."""
+
+
+class Step(NamedTuple):
+    """One edge on the path around a tile."""
+
+    edge: int
+    forward: bool  # along the edge, the tile on its left
+    shift: tuple[int, int]  # the copy of the edge
+
+
+def edge_ends(unit: Unit) -> Floats:
+    """Place the ends of a unit's edges.
+
+    Returns
+    -------
+    (e, 2, 2) float64, start and stop
+    """
+    return unit.corners[unit.ends[..., 0]] + unit.ends[..., 1:] @ unit.translations
+
+
+def knob_sides(unit: Unit) -> Ints:
+    """Decide for every edge: 1, knob to its left, or -1; they alternate where either will do.
+
+    Returns
+    -------
+    (e,) int64
+    """
+    alternating = 1 - 2 * (np.arange(len(unit.ends)) % 2)
+    if unit.knob_side is None:
+        return alternating
+    return np.where(unit.knob_side == 0, alternating, unit.knob_side)
+
+
+def edge_curves(unit: Unit, sides: Ints | None = None) -> list[Floats]:
+    """Draw the edges as they are cut.
+
+    Parameters
+    ----------
+    unit : Unit
+    sides : (e,) int64, 1 or -1, where the knobs of straight edges point; else as `knob_sides`
+
+    Returns
+    -------
+    list of (n, 2) float64, from an edge's start to its end
+    """
+    if unit.curves is not None:
+        return list(unit.curves)
+    ends = edge_ends(unit)
+    if unit.template is None:
+        return list(ends)
+    sides = knob_sides(unit) if sides is None else sides
+    knob = unit.template(_POINTS).points
+    drawn = along(np.stack([np.tile(knob[:, 0], (len(ends), 1)), sides[:, None] * knob[:, 1]], -1), ends)
+    drawn[:, -1] = ends[:, 1]
+    return list(drawn)
+
+
+def tile_steps(unit: Unit) -> list[list[Step]]:
+    """Walk around every tile, itself on the left.
+
+    Returns
+    -------
+    list of list of Step, one a tile
+
+    Raises
+    ------
+    ValueError
+        A tile's edges are no single closed path that visits each of its corners once.
+    """
+    return [_way_around(unit, tile) for tile in range(unit.n_tiles)]
+
+
+def tile_outlines(unit: Unit, curves: list[Floats]) -> list[Floats]:
+    """Draw the tiles.
+
+    Parameters
+    ----------
+    unit : Unit
+    curves : list of (n, 2) float64, see `edge_curves`
+
+    Returns
+    -------
+    list of (k, 2) float64, counterclockwise, the first point not repeated
+
+    Raises
+    ------
+    ValueError
+        As `tile_steps`.
+    """
+    return [
+        np.vstack([_drawn(unit, curves[step.edge], step)[:-1] for step in steps])
+        for steps in tile_steps(unit)
+    ]
+
+
+def _drawn(unit: Unit, curve: Floats, step: Step) -> Floats:
+    return (curve if step.forward else curve[::-1]) + np.array(step.shift) @ unit.translations
+
+
+def _way_around(unit: Unit, tile: int) -> list[Step]:
+    onward: dict[tuple[int, ...], tuple[Step, tuple[int, ...]]] = {}
+    sides = np.argwhere(unit.sides[..., 0] == tile)
+    for edge, side in sides:
+        shift = -unit.sides[edge, side, 1:]
+        start, stop = (
+            (int(corner[0]), int(corner[1] + shift[0]), int(corner[2] + shift[1]))
+            for corner in unit.ends[edge, :: 1 if side == 0 else -1]
+        )
+        if start in onward:
+            raise ValueError(f"tile {tile} comes twice through corner {start[0]}")
+        onward[start] = Step(int(edge), bool(side == 0), (int(shift[0]), int(shift[1]))), stop
+    if not onward:
+        raise ValueError(f"tile {tile} has no edge")
+    first = at = min(onward)
+    steps = []
+    while at in onward:
+        step, at = onward.pop(at)
+        steps.append(step)
+    if at != first or onward:
+        raise ValueError(f"the edges of tile {tile} are not one closed loop")
+    return steps

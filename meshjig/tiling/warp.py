@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
 __all__ = ["Warp", "WarpStyle", "random_warp"]
 

@@ -9,7 +9,7 @@ from meshjig.layout.stitch import region_graph, stitch
 from meshjig.layout.tile_size import choose_tiles
 from meshjig.mesh.types import Mesh
 from meshjig.tiling import squares, tile_charts
-from meshjig.tiling.classic import classic
+from meshjig.tiling.template import classic
 from tests.meshes import half_sphere, sphere, torus
 from tests.tiling.charts import ring_chart
 from tests.tiling.units import bricks, waves

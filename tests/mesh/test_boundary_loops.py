@@ -1,7 +1,7 @@
 import numpy as np
 
-from meshjig.mesh.boundary_loops import border_loop
-from tests.meshes import disc, sphere
+from meshjig.mesh.boundary_loops import border_loop, border_loops, closed_loops
+from tests.meshes import cylinder, disc, sphere
 
 
 def test_the_border_loop_runs_with_the_chart_on_its_left():
@@ -12,3 +12,21 @@ def test_the_border_loop_runs_with_the_chart_on_its_left():
     assert (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() > 0
     assert len(np.unique(loop)) == len(loop)
     assert len(border_loop(sphere(100)[1])) == 0
+
+
+def test_all_border_loops_are_found_with_their_faces_on_the_left():
+    _, F = cylinder(600)
+    one, other = border_loops(F)
+    assert not set(one) & set(other)
+    for loop in (one, other):
+        edges = set(zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True))
+        assert edges <= set(map(tuple, np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]).tolist()))
+    assert border_loops(sphere(100)[1]) == []
+
+
+def test_loops_that_meet_in_a_vertex_are_followed_to_their_ends():
+    start, end = np.array([0, 1, 2, 0, 3, 4]), np.array([1, 2, 0, 3, 4, 0])
+    loops = closed_loops(start, end)
+    assert sorted(np.concatenate(loops).tolist()) == list(range(6))
+    for loop in loops:
+        np.testing.assert_array_equal(end[loop], np.roll(start[loop], -1))

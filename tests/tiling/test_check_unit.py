@@ -1,4 +1,4 @@
-"""What is no tiling is refused, with the fault named."""
+"""What is no tiling is refused, with the fault named; tiles lock where their border has an undercut."""
 
 from dataclasses import replace
 
@@ -6,14 +6,10 @@ import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
-from meshjig.tiling.check_unit import check_unit
-from meshjig.tiling.classic import classic
-from meshjig.tiling.enlarge import enlarged, moved_knob
-from meshjig.tiling.families.hexagon import hexagons
-from meshjig.tiling.families.macro import macro
-from meshjig.tiling.families.square import squares
-from meshjig.tiling.outline import edge_curves
-from meshjig.tiling.template import Template
+from meshjig.tiling.check_unit import check_unit, locked_edges
+from meshjig.tiling.families.regular import hexagons, macro, squares
+from meshjig.tiling.template import Template, classic, enlarged, moved_knob, rectangular
+from meshjig.tiling.unit import edge_curves
 
 
 def other_side(array, *at):
@@ -77,3 +73,50 @@ def test_fault_is_named(fault):
 @pytest.mark.parametrize("unit", [SQUARE, HEXAGON, macro(), with_curves(SQUARE), with_curves(macro())])
 def test_tilings_pass(unit):
     check_unit(unit)
+
+
+def tooth(n):
+    """A knob as wide at its neck as anywhere."""
+    return Template(np.array([(0, 0), (0.4, 0), (0.4, 0.2), (0.6, 0.2), (0.6, 0), (1, 0)], dtype=float))
+
+
+def split_border():
+    """Squares whose upper border is two edges: neither locks alone, both together hold like a dovetail."""
+    unit = squares(rectangular)
+    along = edge_curves(unit)[0]
+    middle = len(along) // 2
+    return replace(
+        unit,
+        corners=np.vstack([unit.corners, along[middle]]),
+        ends=np.array([[(0, 0, 0), (1, 0, 0)], [(1, 0, 0), (0, 1, 0)], [(0, 0, 0), (0, 0, 1)]]),
+        sides=unit.sides[[0, 0, 1]],
+        curves=(along[: middle + 1], along[middle:], np.array([(0.0, 0.0), (0.0, 1.0)])),
+        template=None,
+        knob_side=None,
+    )
+
+
+@pytest.mark.parametrize("unit", [squares(classic), squares(rectangular), hexagons()])
+def test_knobs_with_a_neck_lock(unit):
+    assert locked_edges(unit).all()
+
+
+@pytest.mark.parametrize("template", [tooth, None])
+def test_straight_borders_and_teeth_do_not_lock(template):
+    unit = replace(squares(classic), template=template)
+    assert not locked_edges(unit).any()
+
+
+def test_edges_between_the_same_two_tiles_lock_together():
+    assert locked_edges(split_border()).tolist() == [True, True, False]
+
+
+def test_direction_of_an_edge_does_not_matter():
+    unit = split_border()
+    turned = replace(
+        unit,
+        ends=np.array([unit.ends[0], unit.ends[1][::-1], unit.ends[2]]),
+        sides=np.array([unit.sides[0], unit.sides[1][::-1], unit.sides[2]]),
+        curves=(unit.curves[0], unit.curves[1][::-1], unit.curves[2]),
+    )
+    assert locked_edges(turned).tolist() == [True, True, False]

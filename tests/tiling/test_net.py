@@ -5,9 +5,9 @@ import pytest
 import shapely
 
 from meshjig.tiling import Placing, squares
-from meshjig.tiling.classic import classic
+from meshjig.tiling.fit import bent_round
 from meshjig.tiling.net import GRAIN, lay_net
-from meshjig.tiling.placing import bent_round
+from meshjig.tiling.template import classic
 from tests.tiling.units import bricks, waves
 
 UNITS = {"squares": squares(classic), "bricks": bricks(), "waves": waves()}

@@ -5,9 +5,8 @@ import pytest
 import shapely
 
 from meshjig.tiling import chart_polygons, squares, tile_charts
-from meshjig.tiling.classic import classic
 from meshjig.tiling.domain import unrolled
-from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.template import classic, rectangular
 from tests.tiling.charts import flat_chart, ring_chart
 from tests.tiling.units import bricks, waves
 

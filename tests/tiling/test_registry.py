@@ -9,7 +9,7 @@ from meshjig.errors import OptionError
 from meshjig.tiling.registry import family_names, get_family
 
 PACKAGE = '''
-from meshjig.tiling.families.hexagon import hexagons
+from meshjig.tiling.families.regular import hexagons
 
 def good(seed, columns):
     """Hexagons from elsewhere.

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
-from meshjig.tiling import Placing, Shapes, squares
-from meshjig.tiling.classic import classic
-from meshjig.tiling.placing import bent_round
+from meshjig.tiling import Placing, TileShapes, squares
+from meshjig.tiling.fit import bent_round
+from meshjig.tiling.template import classic
 from tests.tiling.units import bricks, waves
 
 UNITS = {"squares": squares(classic), "bricks": bricks(), "waves": waves()}
@@ -20,7 +20,7 @@ def points(n):
 @pytest.mark.parametrize("name", sorted(UNITS))
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 def test_laid_tiles_cover_the_box_and_lines_divide_the_tiles_named(name, angle):
-    laid = Shapes(UNITS[name]).lay(Placing(9.0, angle, np.array([3.0, 5.0])), BOX, points(300))
+    laid = TileShapes(UNITS[name]).lay(Placing(9.0, angle, np.array([3.0, 5.0])), BOX, points(300))
     clipped = shapely.intersection(laid.tiles, shapely.box(*BOX))
     assert shapely.area(clipped).sum() == pytest.approx(71.0 * 37.0)
     assert len(np.unique(laid.of_tile)) == len(laid.tiles)
@@ -35,7 +35,7 @@ def test_laid_tiles_cover_the_box_and_lines_divide_the_tiles_named(name, angle):
 
 @pytest.mark.parametrize("name", sorted(UNITS))
 def test_points_are_found_in_their_tile(name):
-    shapes, placing, at = Shapes(UNITS[name]), Placing(9.0, 20.0, np.array([3.0, 5.0])), points(4000)
+    shapes, placing, at = TileShapes(UNITS[name]), Placing(9.0, 20.0, np.array([3.0, 5.0])), points(4000)
     laid = shapes.lay(placing, BOX, at)
     tile = dict(zip(laid.of_tile.tolist(), laid.tiles, strict=True))
     inside = shapely.contains([tile[t] for t in laid.of_point.tolist()], shapely.points(at))
@@ -45,7 +45,7 @@ def test_points_are_found_in_their_tile(name):
 
 
 def test_shifts_move_the_tiling_back():
-    shapes, at = Shapes(bricks()), points(2000)
+    shapes, at = TileShapes(bricks()), points(2000)
     shift = np.array([[0.3, 0.1], [0.75, 0.9]])
     counts = shapes.counts(Placing(9.0, 20.0), at, shift)
     for row, by in zip(counts, shift, strict=True):
@@ -57,7 +57,7 @@ def test_shifts_move_the_tiling_back():
 
 @pytest.mark.parametrize("name", sorted(UNITS))
 def test_copies_a_period_away_are_one_tile(name):
-    shapes, period = Shapes(UNITS[name]), 50.0
+    shapes, period = TileShapes(UNITS[name]), 50.0
     placing = bent_round(UNITS[name], 9.0, period)[0]
     at = points(200) * [0.25, 1.0]
     laid = shapes.lay(placing, BOX, np.concatenate([at, at + np.array([period, 0.0])]))

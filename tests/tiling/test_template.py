@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.tiling.classic import classic
-from meshjig.tiling.rectangular import rectangular
-from meshjig.tiling.template import Template
+from meshjig.tiling.template import Template, classic, rectangular
 
 KNOBS = {"classic": classic, "rectangular": rectangular}
 

@@ -5,9 +5,8 @@ import pytest
 import shapely
 
 from meshjig.tiling import Placing, chart_polygons, squares, tile_charts
-from meshjig.tiling.classic import classic
-from meshjig.tiling.rectangular import rectangular
 from meshjig.tiling.registry import get_family
+from meshjig.tiling.template import classic, rectangular
 from tests.tiling.charts import flat_chart
 from tests.tiling.units import bricks, waves
 

@@ -3,7 +3,7 @@
 import numpy as np
 import shapely
 
-from meshjig.tiling.outline import edge_curves, tile_outlines
+from meshjig.tiling.unit import edge_curves, tile_outlines
 
 __all__ = ["copies", "cover_counts", "is_moved", "outlines"]
 

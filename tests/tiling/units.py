@@ -3,8 +3,7 @@
 import numpy as np
 
 from meshjig.tiling import Unit, squares
-from meshjig.tiling.classic import classic
-from meshjig.tiling.rectangular import rectangular
+from meshjig.tiling.template import classic, rectangular
 
 
 def waves():

@@ -4,11 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
-from meshjig.tiling.classic import classic
-from meshjig.tiling.enlarge import enlarged, moved_knob
-from meshjig.tiling.families.macro import leaning
-from meshjig.tiling.template import Template
+from meshjig.mesh.arrays import Floats
+from meshjig.tiling.template import Template, classic, enlarged, leaning, moved_knob
 
 __all__ = ["EDGE_SHAPES", "neck_width", "with_symmetry"]
 

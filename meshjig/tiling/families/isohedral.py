@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 from meshjig.tiling.assemble_unit import assemble
 from meshjig.tiling.families.edge_shapes import EDGE_SHAPES, neck_width, with_symmetry
-from meshjig.tiling.svg.read_edges import read_edges
-from meshjig.tiling.svg.read_outlines import bounded
+from meshjig.tiling.svg.read_paths import bounded
+from meshjig.tiling.svg.tile_paths import read_edges
 from meshjig.tiling.unit import Unit
 
 __all__ = ["STRAIGHT", "isohedral"]

@@ -1,23 +1,24 @@
 """Close a pole: draw the cap beyond a ring as wedges or with a capstone."""
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Knobs, Outlines
-from meshjig.tiling.classic import classic
-from meshjig.tiling.edge_curves import POINT_DISTANCE, Curves
-from meshjig.tiling.graph import Drawing, chart_graph
-from meshjig.tiling.knobs import CLEAR, Chances, choose_knobs
-from meshjig.tiling.net import Net, rounded
-from meshjig.tiling.poles.polar_graph import PolarNet, around_chart
-from meshjig.tiling.poles.polar_net import polar_net
-from meshjig.tiling.poles.polar_plan import PolePlan, PoleStyle, plan_pole
-from meshjig.tiling.poles.poles import Pole, Rim, ring_rim
-from meshjig.tiling.template import Template
+from meshjig.mesh.arrays import Bools, Floats
+from meshjig.mesh.types import Knobs, Outlines
+from meshjig.tiling.drawing import Drawing, EdgeCurves, fine_template
+from meshjig.tiling.graph import chart_graph
+from meshjig.tiling.knobs import CLEAR, Chances, KnobRules, choose_knobs
+from meshjig.tiling.net import TileNet, rounded
+from meshjig.tiling.poles.cap_net import around_chart, polar_net
+from meshjig.tiling.poles.net import PolarNet
+from meshjig.tiling.poles.plan import PolePlan, PoleStyle, plan_pole
+from meshjig.tiling.poles.poles import CapBorder, Pole, cap_border
+from meshjig.tiling.template import classic
 from meshjig.tiling.unit import Unit
 
-__all__ = ["Cap", "close_pole", "drawn_cap"]
+__all__ = ["Cap", "PoleFacts", "close_pole", "drawn_cap", "pole_facts"]
 
 SHORTEST_RUN = 0.2  # of a tile's edge: a tile that ends on a cap with less makes no wedge
 LARGEST = 2.0  # times its size that a knob may grow: edges around a pole are short
@@ -30,6 +31,7 @@ POINTS = 40  # of a template, a part
 class Cap(NamedTuple):
     """How a pole is closed."""
 
+    polygon: Any  # shapely.Polygon, of the chart
     net: PolarNet
     plan: PolePlan
     meeting: int  # wedges
@@ -41,8 +43,19 @@ class Cap(NamedTuple):
         return self.plan.capstone and len(self.plan.levels) == 1
 
 
+@dataclass(frozen=True)
+class PoleFacts:
+    """What the report says of a pole."""
+
+    chart: int  # the cap
+    ring: int  # its chart
+    closed_by: str
+    meeting: int  # wedges that meet at it
+    why: str  # not as asked for
+
+
 def close_pole(
-    pole: Pole, polygon: Any, ring: tuple[Net, Outlines], size: float, style: PoleStyle
+    pole: Pole, polygon: Any, ring: tuple[TileNet, Outlines], size: float, style: PoleStyle
 ) -> Cap | None:
     """Decide on the tiles of a cap, and lay them.
 
@@ -50,7 +63,7 @@ def close_pole(
     ----------
     pole : Pole
     polygon : shapely.Polygon, the cap
-    ring : Net and Outlines of the ring chart
+    ring : TileNet and Outlines of the ring chart
     size : float, mm, of a tile
     style : "wedge" or "capstone"
 
@@ -58,74 +71,65 @@ def close_pole(
     -------
     Cap, or None where the cap is best tiled like any other chart
     """
-    rim = ring_rim(pole, ring[1], SHORTEST_RUN * size)
+    border = cap_border(pole, ring[1], SHORTEST_RUN * size)
     radius = float(np.sqrt(polygon.area / np.pi)) / size
-    depth = _depth(pole, rim, ring[0])
-    plan = plan_pole(style, radius, depth / size, len(rim.tile))
+    depth = _depth(pole, border, ring[0])
+    plan = plan_pole(style, radius, depth / size, len(border.tile))
     if plan is None:
         return None
     if plan.capstone and len(plan.levels) == 1:
-        return Cap(around_chart(polygon), plan, 0, depth)
-    net = polar_net(polygon, _middle(polygon, pole.tip), rim, plan)
+        return Cap(polygon, around_chart(polygon), plan, 0, depth)
+    net = polar_net(polygon, _middle(polygon, pole.tip), border, plan)
     if net is None:
         plan = PolePlan((1.0,), (), True, "the end is not round enough for wedges")
         whole = plan_pole("capstone", radius, 0.0, 0)
-        return None if whole is None else Cap(around_chart(polygon), plan, 0, depth)
-    return Cap(net, plan, 0 if plan.capstone else plan.meeting or len(rim.tile), depth)
+        return None if whole is None else Cap(polygon, around_chart(polygon), plan, 0, depth)
+    return Cap(polygon, net, plan, 0 if plan.capstone else plan.meeting or len(border.tile), depth)
+
+
+def pole_facts(pole: Pole, cap: Cap | None) -> PoleFacts:
+    """Say how a pole was closed."""
+    if cap is None:
+        return PoleFacts(pole.cap, pole.ring, "tiles", 0, "the cap is better tiled like any other chart")
+    by = "capstone" if cap.plan.capstone else "wedge"
+    return PoleFacts(pole.cap, pole.ring, by, cap.meeting, cap.plan.why)
 
 
 def drawn_cap(
-    polygon: Any,
-    cap: Cap,
-    ring_label: int,
-    unit: Unit,
-    size: float,
-    min_neck: float,
-    chances: Chances,
+    cap: Cap, ring_label: int, unit: Unit, size: float, min_neck: float, chances: Chances
 ) -> tuple[Outlines, Knobs]:
     """Draw the edges of a cap, with knobs where they have room and leave no thin places.
 
     Parameters
     ----------
-    polygon : shapely.Polygon
     cap : Cap
     ring_label : int, what the ring's labels are counted from, as seen from the cap's own
-    unit : Unit
+    unit : Unit, whose knob is drawn, or a classic one
     size, min_neck : float, mm
     chances : Chances
     """
     import shapely
 
     net, open_to = cap.net.net(ring_label)
-    template = _template(unit, net)
     ends = net.nodes[net.ends]
+    longest = float(np.linalg.norm(np.diff(ends, axis=1), axis=2).max())
+    template = fine_template(unit.template or classic, longest, POINTS)
     least, min_neck = min_neck, min_neck * MARGIN
     open_to &= LARGEST * template.neck_width * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) >= min_neck
-    inside = shapely.buffer(polygon, -max(CLEAR * size, min_neck - cap.depth))
+    inside = shapely.buffer(cap.polygon, -max(CLEAR * size, min_neck - cap.depth))
     shapely.prepare(inside)
+    rules = KnobRules(inside, min_neck, max(CLEAR * size, min_neck), cap.net.bend, largest=LARGEST)
+    sides = np.zeros(len(ends), np.int64)
     for _ in range(TRIES):
-        knobbed, drawn = choose_knobs(
-            inside,
-            ends,
-            template,
-            np.zeros(len(ends), np.int64),
-            size,
-            min_neck=min_neck,
-            chances=chances,
-            bend=cap.net.bend,
-            open_to=open_to,
-            clearance=max(CLEAR * size, min_neck),
-            largest=LARGEST,
-        )
+        knobbed, drawn = choose_knobs(ends, sides, template, rules, chances, open_to)
         neck = np.linalg.norm(drawn[:, template.neck[0]] - drawn[:, template.neck[1]], axis=1)
         bad = knobbed & (_crossed(drawn) | (neck < least))
         open_to &= ~bad
         if not bad.any():
             break
-    curves = Curves(rounded(drawn.reshape(-1, 2)), np.arange(len(ends) + 1) * drawn.shape[1])
-    return chart_graph(
-        polygon, Drawing(net, rounded(net.nodes), net.first_edge, curves, knobbed, template, 0.0)
-    )
+    curves = EdgeCurves(rounded(drawn.reshape(-1, 2)), np.arange(len(ends) + 1) * drawn.shape[1])
+    drawing = Drawing(net, rounded(net.nodes), net.first_edge, curves, knobbed, template, 0.0)
+    return chart_graph(cap.polygon, drawing)
 
 
 def _crossed(curves: Floats) -> Bools:
@@ -138,12 +142,12 @@ def _crossed(curves: Floats) -> Bools:
     return crossed
 
 
-def _depth(pole: Pole, rim: Rim, net: Net) -> float:
+def _depth(pole: Pole, border: CapBorder, net: TileNet) -> float:
     """Give how far the ring's tiles that end on a cap reach away from it, mm: half of them farther."""
     level = float(pole.there[..., 1].mean())
     ahead = np.sign(net.nodes[:, 1].mean() - level)
     depth = []
-    for tile in np.unique(rim.tile).tolist():
+    for tile in np.unique(border.tile).tolist():
         mine: Bools = (net.left == tile) | (net.right == tile)
         depth.append((ahead * (net.nodes[net.ends[mine], 1] - level)).max())
     return float(np.median(depth)) if depth else 0.0
@@ -160,10 +164,3 @@ def _middle(polygon: Any, tip: Floats | None) -> Floats:
     if not inside.contains(middle):
         middle = shapely.maximum_inscribed_circle(polygon).interpolate(0)
     return np.array([middle.x, middle.y])
-
-
-def _template(unit: Unit, net: Net) -> Template:
-    """Draw the unit's knob, or a classic one, with a point about every 0.6 mm of the longest edge."""
-    longest = float(np.linalg.norm(np.diff(net.nodes[net.ends], axis=1), axis=2).max())
-    n = int(np.clip(np.ceil(1.7 * longest / POINT_DISTANCE / 5), 4, POINTS))
-    return (unit.template or classic)(n)

@@ -1,17 +1,18 @@
-"""Where a ring chart closes over a pole: the cap beyond its rim, and where the ring's tiles end on it."""
+"""Where a ring chart closes over a pole: the cap beyond it, and where the ring's tiles end on it."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Atlas, Floats, Ints, Outlines
+from meshjig.mesh.types import Atlas, Outlines
 from meshjig.tiling.domain import chart_borders
 
-__all__ = ["Pole", "Rim", "find_poles", "ring_rim"]
-
+__all__ = ["CapBorder", "Pole", "cap_border", "find_poles"]
 
 POINTED = 0.8  # radians of angle that are missing around a tip
 
@@ -27,7 +28,7 @@ class Pole:
     tip: Floats | None = None  # (2,), mm, where the cap comes to a point; None where it is round
 
 
-class Rim(NamedTuple):
+class CapBorder(NamedTuple):
     """The ring's tiles along a cap's border, counterclockwise."""
 
     start: Floats  # (n, 2), mm, where each begins, in the cap's plane
@@ -58,10 +59,11 @@ def find_poles(atlas: Atlas) -> list[Pole]:
         beyond = chart[other[mine]]
         if (other[mine] < 0).any() or np.ptp(beyond) > 0 or atlas.period[beyond[0]] == 0:
             continue
-        turn = _one_loop(corner[h[mine]], corner[after[mine]])
-        if turn is None:
+        start, end = corner[h[mine]], corner[after[mine]]
+        loops = closed_loops(start, end)
+        if len(loops) > 1 or len(np.unique(start)) < len(start):
             continue
-        mine = mine[turn]
+        mine = mine[loops[0]]
         twin = other[mine]
         here = atlas.uv[np.stack([corner[h[mine]], corner[after[mine]]], 1)]
         there = atlas.uv[np.stack([corner[after[twin]], corner[h[twin]]], 1)]
@@ -69,7 +71,7 @@ def find_poles(atlas: Atlas) -> list[Pole]:
     return poles
 
 
-def ring_rim(pole: Pole, outlines: Outlines, least: float) -> Rim:
+def cap_border(pole: Pole, outlines: Outlines, least: float) -> CapBorder:
     """Find which of a ring's tiles end on a cap, and where.
 
     Parameters
@@ -80,7 +82,7 @@ def ring_rim(pole: Pole, outlines: Outlines, least: float) -> Rim:
 
     Returns
     -------
-    Rim
+    CapBorder
         Without rows where no cut of the ring comes to the cap's border.
     """
     edge, t, tile = _crossings(pole.there, outlines)
@@ -89,7 +91,7 @@ def ring_rim(pole: Pole, outlines: Outlines, least: float) -> Rim:
     length = np.linalg.norm(pole.here[:, 1] - pole.here[:, 0], axis=1)
     at = np.cumsum(length)[edge] - (1 - t) * length[edge]
     kept = _long_enough(at, tile, float(length.sum()), least)
-    return Rim(start[kept[:, 0]], tile[kept[:, 1]])
+    return CapBorder(start[kept[:, 0]], tile[kept[:, 1]])
 
 
 def _partners(key: Ints) -> Ints:
@@ -114,26 +116,14 @@ def _tip(atlas: Atlas, cap: int) -> Floats | None:
     return atlas.uv[tip] if missing[tip] >= POINTED else None
 
 
-def _one_loop(start: Ints, end: Ints) -> Ints | None:
-    """Order edges along the loop that they make; None where it is not one."""
-    row = dict(zip(start.tolist(), range(len(start)), strict=True))
-    turn = [0]
-    while len(turn) <= len(start):
-        following = row.get(int(end[turn[-1]]), 0)
-        if following == 0:
-            break
-        turn.append(following)
-    return np.array(turn, np.int64) if len(turn) == len(start) else None
-
-
-def _crossings(rim: Floats, outlines: Outlines) -> tuple[Ints, Floats, Ints]:
+def _crossings(border: Floats, outlines: Outlines) -> tuple[Ints, Floats, Ints]:
     """Give where cuts cross edges (k, 2, 2), in order: edge, place 0 to 1 along it, and the tile after."""
     import shapely
 
     ends = outlines.points[outlines.segments]
     lines = shapely.linestrings(ends)
-    edge, s = shapely.STRtree(lines).query(shapely.linestrings(rim))
-    A, B, p, q = rim[edge, 0], rim[edge, 1], ends[s, 0], ends[s, 1]
+    edge, s = shapely.STRtree(lines).query(shapely.linestrings(border))
+    A, B, p, q = border[edge, 0], border[edge, 1], ends[s, 0], ends[s, 1]
     left_a, left_b = _turn(p, q, A), _turn(p, q, B)
     hit = ((left_a > 0) != (left_b > 0)) & ((_turn(A, B, p) > 0) != (_turn(A, B, q) > 0))
     edge, s, left_a, left_b = edge[hit], s[hit], left_a[hit], left_b[hit]

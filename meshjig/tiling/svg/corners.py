@@ -1,16 +1,17 @@
 """Find the corners of a tiling, where three tiles or more meet, and the edges between them."""
 
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats, Ints
-from meshjig.tiling.svg.covering import copies_around
-from meshjig.tiling.svg.read_outlines import Outline, place
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.tiling.svg.read_paths import place
+from meshjig.tiling.svg.tile_paths import Outline
 
-__all__ = ["split_at_corners"]
+__all__ = ["copies_around", "split_at_corners"]
 
 _STEPS = 500  # places looked at along an outline
 
@@ -56,6 +57,26 @@ def split_at_corners(
             )
         split.append(edges)
     return split
+
+
+def copies_around(tiles: list[Any], translations: Floats, tolerance: float) -> list[Floats]:
+    """List the translations, (2,) each and zero first, whose copies may touch what the tiles reach over.
+
+    Parameters
+    ----------
+    tiles : list of shapely.Polygon
+    translations : (2, 2) float64
+    tolerance : float
+    """
+    import shapely
+
+    low_x, low_y, high_x, high_y = shapely.total_bounds(tiles)
+    extent = np.array([high_x - low_x, high_y - low_y]) + tolerance
+    reach = np.abs(translations).sum(0) + extent  # as far as the parallelogram that is looked at for holes
+    n, m = np.ceil(np.linalg.norm(reach) * np.linalg.norm(np.linalg.inv(translations), axis=0)).astype(int)
+    moves = np.array(list(product(range(-n, n + 1), range(-m, m + 1)))) @ translations
+    moves = moves[(np.abs(moves) <= reach).all(1)]
+    return list(moves[np.argsort(np.linalg.norm(moves, axis=1), kind="stable")])
 
 
 @dataclass(frozen=True)

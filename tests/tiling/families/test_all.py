@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
-from meshjig.tiling.check_unit import check_unit
-from meshjig.tiling.locked_edges import locked_edges
-from meshjig.tiling.outline import edge_curves
+from meshjig.tiling.check_unit import check_unit, locked_edges
 from meshjig.tiling.registry import family_names, get_family
+from meshjig.tiling.unit import edge_curves
 from tests.tiling.tilings import cover_counts, outlines
 
 NAMES = [name for name, _ in family_names() if "nn" not in name and "FILE" not in name]

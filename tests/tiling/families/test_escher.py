@@ -8,9 +8,8 @@ from scipy.sparse.csgraph import connected_components
 
 from meshjig.errors import OptionError
 from meshjig.tiling.assemble_unit import assemble
-from meshjig.tiling.check_unit import check_unit
+from meshjig.tiling.check_unit import check_unit, locked_edges
 from meshjig.tiling.families import escher
-from meshjig.tiling.locked_edges import locked_edges
 from tests.tiling.tilings import copies, cover_counts, is_moved, outlines
 
 DIRECTIONS = np.linspace(0, 2 * np.pi, 72, endpoint=False)

@@ -8,9 +8,8 @@ import pytest
 import shapely
 
 from meshjig.errors import OptionError
-from meshjig.tiling.check_unit import check_unit
+from meshjig.tiling.check_unit import check_unit, locked_edges
 from meshjig.tiling.families.isohedral import STRAIGHT, isohedral
-from meshjig.tiling.locked_edges import locked_edges
 from tests.tiling.tilings import is_moved, outlines
 
 tactile = pytest.importorskip("tactile")

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from meshjig.tiling.families.polyomino import SQUARES, polyomino
-from meshjig.tiling.outline import edge_ends, tile_outlines
+from meshjig.tiling.unit import edge_ends, tile_outlines
 
 
 def squares_of(unit):

@@ -6,11 +6,11 @@ import shapely
 
 from meshjig.cut import overlay
 from meshjig.mesh.components import components
-from meshjig.tiling import chart_polygons, squares, tile_charts, tile_surface
-from meshjig.tiling.classic import classic
+from meshjig.tiling import TileStyle, chart_polygons, squares, tile_charts, tile_surface
 from meshjig.tiling.domain import chart_periods, unrolled
-from meshjig.tiling.families.hexagon import hexagons
-from meshjig.tiling.poles.poles import find_poles, ring_rim
+from meshjig.tiling.families.regular import hexagons
+from meshjig.tiling.poles.poles import cap_border, find_poles
+from meshjig.tiling.template import classic
 from tests.tiling.charts import cup, flat_chart, ring_chart
 from tests.tiling.test_periodic import unrolled_knobs
 from tests.tiling.units import bricks, waves
@@ -82,7 +82,7 @@ def test_a_pointed_cap_has_its_pole_at_the_tip():
 def test_the_rim_names_each_tile_of_the_ring_once(atlas):
     (pole,) = find_poles(atlas)
     outlines, _ = tile_charts(atlas, MIDDLE, placings=None)
-    rim = ring_rim(pole, outlines, 3.0)
+    rim = cap_border(pole, outlines, 3.0)
     assert len(rim.tile) == len(np.unique(rim.tile)) == 6  # 157 mm around
     gaps = np.linalg.norm(rim.start - np.roll(rim.start, 1, 0), axis=1)
     np.testing.assert_allclose(gaps, 25.0, atol=0.5)
@@ -91,14 +91,16 @@ def test_the_rim_names_each_tile_of_the_ring_once(atlas):
 @pytest.mark.parametrize("name", ["classic", "hex", "waves"])
 @pytest.mark.parametrize("random", [0.0, 0.7])
 def test_wedges_are_the_rings_tiles_run_on_to_the_pole(atlas, name, random):
-    tiling = tile_surface(atlas, MIDDLE, pole="wedge", unit=UNITS[name], random=random, min_neck=NECK)
+    tiling = tile_surface(
+        atlas, MIDDLE, pole="wedge", unit=UNITS[name], style=TileStyle(min_neck=NECK, random=random)
+    )
     cut = overlay(atlas, tiling.outlines)
     assert cut.facts["label_conflicts"] == 0
     (fact,) = tiling.poles
-    assert fact["closed_by"] == "wedge"
-    assert fact["why"] == ""
+    assert fact.closed_by == "wedge"
+    assert fact.why == ""
     around = at_pole(cut)
-    assert 2 <= len(around) == fact["meeting"] <= 8
+    assert 2 <= len(around) == fact.meeting <= 8
     chart = atlas.chart_of_face[cut.parent]
     for region in around:
         assert set(chart[cut.region == region].tolist()) == {0, 1}
@@ -107,7 +109,7 @@ def test_wedges_are_the_rings_tiles_run_on_to_the_pole(atlas, name, random):
 
 
 def test_cuts_go_on_over_the_border_of_the_cap(atlas):
-    tiling = tile_surface(atlas, MIDDLE, pole="wedge", min_neck=NECK)
+    tiling = tile_surface(atlas, MIDDLE, pole="wedge", style=TileStyle(min_neck=NECK))
     wedges = overlay(atlas, tiling.outlines)
     plain = overlay(atlas, tile_charts(atlas, MIDDLE, min_neck=NECK)[0])
     assert wedges.facts["seam_merged"] == plain.facts["seam_merged"] + 6
@@ -118,8 +120,8 @@ def test_cuts_go_on_over_the_border_of_the_cap(atlas):
     [("wedge", SMALL), ("wedge", 17.0), ("wedge", MIDDLE), ("capstone", MIDDLE), ("capstone", 31.0)],
 )
 def test_nothing_is_thinner_than_a_neck_but_the_tip(atlas, style, size):
-    tiling = tile_surface(atlas, size, pole=style, min_neck=NECK)
-    assert tiling.poles[0]["closed_by"] == style
+    tiling = tile_surface(atlas, size, pole=style, style=TileStyle(min_neck=NECK))
+    assert tiling.poles[0].closed_by == style
     for cell in drawn_in_cap(atlas, tiling.outlines, beyond=(30 - size / 2) % size):
         inner = cell.buffer(-0.49 * NECK)
         assert inner.geom_type == "Polygon"
@@ -128,7 +130,7 @@ def test_nothing_is_thinner_than_a_neck_but_the_tip(atlas, style, size):
 
 @pytest.mark.parametrize("size", [SMALL, MIDDLE, LARGE])
 def test_no_knob_is_near_the_point(atlas, size):
-    tiling = tile_surface(atlas, size, pole="wedge", min_neck=NECK)
+    tiling = tile_surface(atlas, size, pole="wedge", style=TileStyle(min_neck=NECK))
     away = np.linalg.norm(tiling.outlines.points - POLE, axis=1)
     for first, after in tiling.knobs.span:
         assert away[tiling.outlines.segments[first:after]].min() > 0.25 * min(25.0, size)
@@ -142,7 +144,9 @@ def test_no_knob_leaves_its_chart_nor_holds_the_pole(atlas, style, name, random)
         unrolled(polygon, period).buffer(-0.02 * MIDDLE)
         for polygon, period in zip(chart_polygons(atlas), chart_periods(atlas), strict=True)
     ]
-    tiling = tile_surface(atlas, MIDDLE, pole=style, unit=UNITS[name], random=random, min_neck=NECK)
+    tiling = tile_surface(
+        atlas, MIDDLE, pole=style, unit=UNITS[name], style=TileStyle(min_neck=NECK, random=random)
+    )
     curves = list(unrolled_knobs(tiling.outlines, tiling.knobs))
     assert len(curves) > 10
     for curve in curves:
@@ -153,18 +157,18 @@ def test_no_knob_leaves_its_chart_nor_holds_the_pole(atlas, style, name, random)
 
 
 def test_where_too_many_would_meet_a_few_do_and_the_reason_is_given(atlas):
-    tiling = tile_surface(atlas, SMALL, pole="wedge", min_neck=NECK)
+    tiling = tile_surface(atlas, SMALL, pole="wedge", style=TileStyle(min_neck=NECK))
     (fact,) = tiling.poles
-    assert fact["why"] == "14 wedges would meet"
-    assert 4 <= fact["meeting"] <= 8
+    assert fact.why == "14 wedges would meet"
+    assert 4 <= fact.meeting <= 8
     cut = overlay(atlas, tiling.outlines)
-    assert len(at_pole(cut)) == fact["meeting"]
+    assert len(at_pole(cut)) == fact.meeting
     assert cut.facts["label_conflicts"] == 0
 
 
 def test_rows_around_a_pole_hold_tiles_of_one_size(atlas):
     size = 7.0
-    tiling = tile_surface(atlas, size, pole="wedge", min_neck=1.0)
+    tiling = tile_surface(atlas, size, pole="wedge", style=TileStyle(min_neck=1.0))
     areas = np.array([cell.area for cell in drawn_in_cap(atlas, tiling.outlines)])
     own = areas[areas > 0.6 * size**2]  # the rest belong to tiles of the ring
     assert len(own) > 20
@@ -173,8 +177,8 @@ def test_rows_around_a_pole_hold_tiles_of_one_size(atlas):
 
 
 def test_a_capstone_is_one_piece_with_knobs_around(atlas):
-    tiling = tile_surface(atlas, MIDDLE, pole="capstone", min_neck=NECK)
-    assert tiling.poles[0]["closed_by"] == "capstone"
+    tiling = tile_surface(atlas, MIDDLE, pole="capstone", style=TileStyle(min_neck=NECK))
+    assert tiling.poles[0].closed_by == "capstone"
     cut = overlay(atlas, tiling.outlines)
     (stone,) = at_pole(cut)
     mine = cut.region == stone
@@ -188,7 +192,7 @@ def test_a_capstone_is_one_piece_with_knobs_around(atlas):
 
 def test_a_cap_smaller_than_a_tile_is_the_capstone_whole():
     atlas = cup(radius=10.0)
-    tiling = tile_surface(atlas, 27.0, pole="capstone", min_neck=NECK)
+    tiling = tile_surface(atlas, 27.0, pole="capstone", style=TileStyle(min_neck=NECK))
     cut = overlay(atlas, tiling.outlines)
     (stone,) = at_pole(cut)
     assert set(cut.region[atlas.chart_of_face[cut.parent] == 1].tolist()) == {stone}
@@ -196,7 +200,7 @@ def test_a_cap_smaller_than_a_tile_is_the_capstone_whole():
 
 
 def test_a_cap_too_large_for_a_capstone_is_tiled_as_ever(atlas):
-    tiling = tile_surface(atlas, SMALL, pole="capstone", min_neck=NECK)
-    assert tiling.poles[0]["closed_by"] == "tiles"
+    tiling = tile_surface(atlas, SMALL, pole="capstone", style=TileStyle(min_neck=NECK))
+    assert tiling.poles[0].closed_by == "tiles"
     outlines, _ = tile_charts(atlas, SMALL, min_neck=NECK)
     np.testing.assert_array_equal(tiling.outlines.points, outlines.points)

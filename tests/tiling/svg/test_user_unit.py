@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
-from meshjig.tiling.check_unit import check_unit
-from meshjig.tiling.locked_edges import locked_edges
+from meshjig.tiling.check_unit import check_unit, locked_edges
 from meshjig.tiling.registry import get_family
 from meshjig.tiling.svg.user_unit import user_unit
 from tests.tiling.tilings import cover_counts, is_moved, outlines

@@ -1,36 +1,38 @@
-"""Four tiles, each a quarter turn from the last, make the square that is moved."""
+"""Regular tilings with knobs on straight edges: squares, four of them turned about a corner, and hexagons."""
+
+from collections.abc import Callable
 
 import numpy as np
 
-from meshjig.tiling.families.bezier import bezier_chain
-from meshjig.tiling.template import Template
+from meshjig.tiling.template import Template, classic, enlarged, leaning
 from meshjig.tiling.unit import Unit
 
-__all__ = ["leaning", "macro"]
+__all__ = ["hexagons", "macro", "squares"]
 
-_CUBICS = np.array(
-    [
-        [(0.0, 0.0), (0.18, 0.00), (0.345, -0.06), (0.395, -0.01)],
-        [(0.395, -0.01), (0.43, 0.035), (0.375, 0.085), (0.405, 0.17)],
-        [(0.405, 0.17), (0.45, 0.335), (0.75, 0.28), (0.69, 0.12)],
-        [(0.69, 0.12), (0.66, 0.055), (0.54, 0.075), (0.54, 0.015)],
-        [(0.54, 0.015), (0.54, -0.05), (0.79, 0.00), (1.0, 0.0)],
-    ]
-)
+_EDGE = float(np.sqrt(2 / np.sqrt(27)))  # of a hexagon of area 1
+_LARGER = 1.4  # the edge is shorter than that of a square, its knob need not be
 
 
-def leaning(n: int) -> Template:
-    """Draw one edge of a tile from (0, 0) to (1, 0) with a knob that leans forward, to its left.
+def squares(template: Callable[[int], Template]) -> Unit:
+    """Repeat a square whose edges carry a knob on either side.
 
     Parameters
     ----------
-    n : int, points a cubic; the edge has 5 n segments
+    template : callable, the knob, drawn with n points a part
 
     Returns
     -------
-    Template
+    Unit
     """
-    return Template(bezier_chain(_CUBICS, n))
+    return Unit(
+        translations=np.eye(2),
+        corners=np.zeros((1, 2)),
+        ends=np.array([[(0, 0, 0), (0, 1, 0)], [(0, 0, 0), (0, 0, 1)]]),
+        sides=np.array([[(0, 0, 0), (0, 0, -1)], [(0, -1, 0), (0, 0, 0)]]),
+        n_tiles=1,
+        template=template,
+        knob_side=np.zeros(2, np.int64),
+    )
 
 
 def macro() -> Unit:
@@ -76,3 +78,26 @@ def macro() -> Unit:
         template=leaning,
         knob_side=np.array([1, 1, 1, 1, -1, -1, -1, -1]),
     )
+
+
+def hexagons() -> Unit:
+    """Repeat a regular hexagon that stands on a corner.
+
+    Returns
+    -------
+    Unit
+    """
+    wide = np.sqrt(3) * _EDGE
+    return Unit(
+        translations=np.array([(wide, 0.0), (wide / 2, 1.5 * _EDGE)]),
+        corners=_EDGE * np.array([(0.0, -1.0), (0.0, 1.0)]),
+        ends=np.array([[(1, 1, -1), (0, 0, 1)], [(0, 0, 1), (1, 0, 0)], [(1, 0, 0), (0, -1, 1)]]),
+        sides=np.array([[(0, 0, 0), (0, 1, 0)], [(0, 0, 0), (0, 0, 1)], [(0, 0, 0), (0, -1, 1)]]),
+        n_tiles=1,
+        template=_knob,
+        knob_side=np.zeros(3, np.int64),
+    )
+
+
+def _knob(n: int) -> Template:
+    return enlarged(classic(n), _LARGER)

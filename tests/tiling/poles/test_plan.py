@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshjig.tiling.poles.polar_plan import plan_pole
+from meshjig.tiling.poles.plan import plan_pole
 
 RADII = st.floats(0.1, 8.0)
 

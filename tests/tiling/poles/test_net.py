@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.tiling.poles.polar_bend import Circle, PolarBend
+from meshjig.tiling.poles.net import Circle, PolarBend
 
 POLE = np.array([3.0, -7.0])
 
