@@ -14,6 +14,7 @@ __all__ = [
     "face_sides",
     "interpolate",
     "mesh_volume",
+    "signed_area",
     "singular_values",
     "sums",
     "unit",
@@ -75,6 +76,12 @@ def mesh_volume(V: Floats, F: Ints) -> float:
     """Give the signed volume of a closed mesh, mm3; positive when faces point outward."""
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def signed_area(ring: Floats) -> float:
+    """Give the area inside a closed polyline (n, 2), first point not repeated; > 0 counterclockwise."""
+    x, y = ring.T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
 
 
 def interpolate(X: Floats, F: Ints, face: Ints, bary: Floats) -> Floats:

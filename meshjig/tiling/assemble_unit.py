@@ -29,7 +29,7 @@ def assemble(tiles: Sequence[Sequence[Floats]], translations: Floats, tolerance:
     ----------
     tiles : sequence of sequences of (n, 2) float64
         A tile's edges counterclockwise, each from the corner where the one before it ends. The edge of
-        the tile next to it runs the other way between the same corners; the first one's curve is kept.
+        the tile next to it runs back between the same corners; the first one's curve is kept.
     translations : (2, 2) float64, a vector a row, the second on the left of the first
     tolerance : float, share of a tile's edge that points which are one may lie apart
 
@@ -114,6 +114,6 @@ def _length(curve: Floats) -> float:
 
 
 def _middle(curve: Floats) -> Floats:
-    """Give the point halfway along a curve."""
+    """The point halfway along a curve."""
     along = np.r_[0.0, np.linalg.norm(np.diff(curve, axis=0), axis=1).cumsum()]
     return np.array([np.interp(along[-1] / 2, along, curve[:, axis]) for axis in (0, 1)])

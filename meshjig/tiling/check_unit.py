@@ -114,9 +114,9 @@ def _check_crossings(unit: Unit) -> None:
 
     edge, side = _sided_edges(unit)
     lines = np.empty(len(edge), object)
-    for way in (1, -1):
-        drawn = edge_curves(unit, np.full(len(unit.ends), way))
-        for k in np.flatnonzero(side == way):
+    for one in (1, -1):
+        drawn = edge_curves(unit, np.full(len(unit.ends), one))
+        for k in np.flatnonzero(side == one):
             lines[k] = shapely.LineString(drawn[edge[k]])
     moved = [
         (shapely.transform(lines, lambda points, by=by @ unit.translations: points + by), by)

@@ -46,7 +46,7 @@ def chart_polygons(atlas: Atlas) -> list[Any]:
 
 
 def chart_borders(F: Ints) -> Ints:
-    """Give the half-edges without a twin, (b,) int64, for faces (m, 3) of charts.
+    """List the half-edges without a twin, (b,) int64, for faces (m, 3) of charts.
 
     A vertex lies on a border where the edges that leave it don't end where those start that reach it.
     Only edges between such vertices are looked at, which is ten times faster than to pair them all.
@@ -63,7 +63,7 @@ def chart_borders(F: Ints) -> Ints:
 
 
 def chart_periods(atlas: Atlas) -> Floats:
-    """Give the period of every chart, mm, 0 where it has none, (c,) float64."""
+    """The period of every chart, mm, 0 where it has none, (c,) float64."""
     return np.zeros(atlas.n_charts) if atlas.period is None else atlas.period
 
 
@@ -111,7 +111,7 @@ def chart_stretch(atlas: Atlas, chart: int) -> Stretch:
 
 
 def _metrics(flat: Floats, solid: Floats) -> Floats:
-    """Give the first fundamental forms (f, 2, 2) of faces from the plane (f, 3, 2) to space (f, 3, 3)."""
+    """The first fundamental forms (f, 2, 2) of faces from the plane (f, 3, 2) to space (f, 3, 3)."""
     A = (solid[:, 1:] - solid[:, :1]).transpose(0, 2, 1)
     (a, c), (b, d) = (flat[:, 1:] - flat[:, :1]).transpose(1, 2, 0)
     det = a * d - b * c

@@ -62,7 +62,7 @@ def draw_svg(unit: Unit, repeats: tuple[int, int] = (3, 3), decor: list[list[Flo
 
 
 def _colours(unit: Unit, places: list[Place]) -> dict[Place, int]:
-    """Give every tile the colour that was used least among those that none of its neighbours has."""
+    """Choose for every tile the colour used least, of those that none of its neighbours has."""
     colours: dict[Place, int] = {}
     used = [0] * len(_SOFT)
     beside = _neighbours(unit)

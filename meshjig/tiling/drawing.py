@@ -53,7 +53,7 @@ def draw_shapes(net: TileNet, unit: Unit, placing: Placing, bend: Callable[[Floa
     net : TileNet, of the unit
     unit : Unit, with curves
     placing : Placing
-    bend : callable, carries points (..., 2) of the chart's plane
+    bend : callable, maps points (..., 2) of the chart's plane
     """
     edges = np.unique(net.first_edge)
     drawn = [_refined(curve, placing) for curve in unit.curves or ()]

@@ -138,7 +138,7 @@ class Fit:
         return list(zip(*(self._best(c, size, n) for c in range(len(self.bounds))), strict=True))
 
     def _best(self, chart: int, size: float, n: int) -> list[Placing]:
-        """Give the n best places in one chart; with the first size tried its angle is chosen, too."""
+        """The n best places in one chart; with the first size tried its angle is chosen, too."""
         low = self.bounds[chart][:2] - OFF * size
         turned = [replace(placing, origin=low) for placing in self._turned(chart, size)]
         tried = []
@@ -173,7 +173,7 @@ def _shifts(moves: Floats, placing: Placing) -> Floats:
     length = np.linalg.norm(moves, axis=1) / placing.size
     n = np.clip(np.rint(PLACES * length).astype(int), PLACES, 2 * PLACES)
     steps = [np.arange(k) / k for k in n.tolist()]
-    if placing.period:  # what counts is how rows lie between the rims
+    if placing.period:  # what counts is how rows lie between the borders
         across = int(np.abs(moves[:, 1]).argmax())
         steps[across] = np.arange(2 * n[across]) / (2 * n[across])
         steps[1 - across] = BESIDE_KNOBS / length[1 - across : 2 - across]

@@ -96,7 +96,7 @@ def _discs(knobs: Floats) -> tuple[Floats, Floats]:
 
 
 def _distance(points: Floats, ends: Floats) -> Floats:
-    """Give the distance of points (k, 2) from segments (k, 2, 2)."""
+    """The distance of points (k, 2) from segments (k, 2, 2)."""
     d, p = ends[:, 1] - ends[:, 0], points - ends[:, 0]
     t = np.einsum("ij,ij->i", p, d) / np.maximum(np.einsum("ij,ij->i", d, d), 1e-300)
     return np.linalg.norm(p - np.clip(t, 0, 1)[:, None] * d, axis=1)

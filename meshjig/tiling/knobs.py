@@ -66,7 +66,7 @@ class KnobRules:
     inside: Any  # shapely geometry, where knobs may be
     min_neck: float  # mm
     clearance: float  # mm, that knobs keep from edges and from each other
-    bend: Callable[[Floats], Floats]  # carries points (..., 2) of the plane; what is drawn is tested after it
+    bend: Callable[[Floats], Floats]  # maps points (..., 2) of the plane; what is drawn is tested after it
     period: float = 0.0  # mm, of a periodic chart
     stretch: Stretch | None = None  # of the chart, for necks to be as wide as asked on the surface
     largest: float = LARGEST  # times its size, that a knob may grow for its neck to be as wide as asked
@@ -137,7 +137,7 @@ def choose_knobs(
 
 
 def _length_at_middle(curves: Floats, stretch: Stretch | None) -> Floats:
-    """Give how long straight edges (e, n, 2) would be, bent all along as they are in the middle; (e,), mm."""
+    """How long straight edges (e, n, 2) would be, bent all along as they are in the middle; (e,), mm."""
     n = curves.shape[1] - 1
     a, b = int(0.4 * n), n - int(0.4 * n)
     ahead = curves[:, b] - curves[:, a]

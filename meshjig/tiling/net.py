@@ -43,12 +43,12 @@ class Placing:
         return linear
 
     def __call__(self, points: Floats) -> Floats:
-        """Carry points (..., 2) from the unit's plane to the chart's."""
+        """Map points (..., 2) from the unit's plane to the chart's."""
         placed: Floats = points @ self.matrix + self.origin
         return placed
 
     def back(self, points: Floats) -> Floats:
-        """Carry points (..., 2) from the chart's plane to the unit's."""
+        """Map points (..., 2) from the chart's plane to the unit's."""
         lengths: Floats = (points - self.origin) @ np.linalg.inv(self.matrix)
         return lengths
 
@@ -125,7 +125,7 @@ def lay_net(unit: Unit, placing: Placing, bounds: Floats, margin: float) -> Tile
 
 
 def _moved(copy: Ints) -> Ints:
-    """Give what is added to a unit's rows (tile or corner, i, j) of two ends or sides, (k, 1, 3)."""
+    """What is added to a unit's rows (tile or corner, i, j) of two ends or sides, (k, 1, 3)."""
     return np.column_stack([np.zeros(len(copy), np.int64), copy])[:, None]
 
 
@@ -145,7 +145,7 @@ def copies_over(unit: Unit, drawn: Floats, placing: Placing, box: Floats) -> Int
 
 
 def unwrapped(rows: Ints, wrap: tuple[int, int]) -> tuple[Ints, Ints]:
-    """Give rows (number, i, j) less whole wraps, copies alike, and how many wraps that were, (k,)."""
+    """Rows (number, i, j) less whole wraps, copies alike, and how many wraps that were, (k,)."""
     first, second = wrap
     if wrap == (0, 0):
         return rows, np.zeros(len(rows), np.int64)
@@ -154,19 +154,19 @@ def unwrapped(rows: Ints, wrap: tuple[int, int]) -> tuple[Ints, Ints]:
 
 
 def distinct(rows: Ints) -> tuple[Ints, Ints]:
-    """Give the distinct rows (k, 3), and the one that each row is."""
+    """The distinct rows (k, 3), and the one that each row is."""
     _, first, which = np.unique(row_keys(rows)[0], return_index=True, return_inverse=True)
     return rows[first], which
 
 
 def first_alike(values: Ints) -> Ints:
-    """Give the place of the first value that is like each value, (k,)."""
+    """The place of the first value that is like each value, (k,)."""
     _, first, which = np.unique(values, return_index=True, return_inverse=True)
     return first[which]
 
 
 def row_keys(rows: Ints) -> tuple[Ints, int]:
-    """Give one number for every row (k, 3), alike for rows that are alike, and what all of them lie below."""
+    """One number for every row (k, 3), alike for rows that are alike, and what all of them lie below."""
     low = rows.min(0)
     span = rows.max(0) - low + 1
     key = ((rows[:, 0] - low[0]) * span[1] + rows[:, 1] - low[1]) * span[2] + rows[:, 2] - low[2]

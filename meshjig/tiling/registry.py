@@ -46,7 +46,7 @@ _ISOHEDRAL, _ESCHER, _SVG = "isohedral:", "escher:", ".svg"
 
 
 def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
-    """Give the unit that a tiling repeats.
+    """Find the unit that a tiling repeats.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
 
 
 def get_decor(name: str) -> list[list[Floats]] | None:
-    """Give the lines drawn inside a tiling's tiles, for pictures.
+    """Draw the lines inside a tiling's tiles, for pictures.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def _figures() -> list[str]:
 
 
 def _figure(name: str) -> str:
-    """Give the figure that a name stands for, the first one for all of them, or nothing."""
+    """The figure that a name stands for, the first one for all of them, or nothing."""
     if name == _ESCHER.removesuffix(":"):
         return escher.names()[0]
     return name.removeprefix(_ESCHER) if name in _figures() else ""

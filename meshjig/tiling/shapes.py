@@ -86,7 +86,7 @@ class TileShapes:
         return np.bincount(key, minlength=len(shifts) * most).reshape(len(shifts), most)
 
     def _tile_at(self, placing: Placing, points: Floats) -> Ints:
-        """Give the tile (number, i, j) at points (s, n, 2), row after row; near an edge, maybe the next."""
+        """The tile (number, i, j) at points (s, n, 2), row after row; near an edge, maybe the next."""
         at = placing.back(points.reshape(-1, 2)) @ np.linalg.inv(self.unit.translations)
         whole = np.floor(at).astype(np.int64)
         n = len(self._lookup)
@@ -96,7 +96,7 @@ class TileShapes:
         return rows
 
     def _sampled(self) -> Ints:
-        """Give the tile (number, i, j) at every sample of the translations' parallelogram, (n, n, 3)."""
+        """The tile (number, i, j) at every sample of the translations' parallelogram, (n, n, 3)."""
         import shapely
 
         unit = self.unit
@@ -115,7 +115,7 @@ class TileShapes:
 
 
 def _plain_edges(unit: Unit) -> list[Floats]:
-    """Give the edges as straight lines, or as their curves with fewer points."""
+    """The edges as straight lines, or as their curves with fewer points."""
     import shapely
 
     if unit.curves is None:

@@ -75,38 +75,28 @@ class Template:
         return float(np.abs(self.points[self.neck[0] : self.neck[1] + 1, 0] - 0.5).max())
 
     def _sides(self, above: float) -> tuple[Ints, Ints]:
-        """Give the points higher than a level on the knob's left side and on its right."""
+        """The points higher than a level on the knob's left side and on its right."""
         high = np.flatnonzero(self.points[:, 1] > above)
         top = np.flatnonzero(self.points[:, 1] >= self.height - 1e-9)
         return high[high <= top[0]], high[high >= top[-1]]
 
 
 def classic(n: int) -> Template:
-    """Draw one edge of a tile from (0, 0) to (1, 0) with a round knob to its left.
+    """Draw an edge with a smooth round knob: neck 0.13, head 0.25, height 0.27 of the edge.
 
     Parameters
     ----------
     n : int, points a cubic; the edge has 5 n segments
-
-    Returns
-    -------
-    Template
-        Neck 0.13, head 0.25, height 0.27 of the edge.
     """
     return Template(_bezier_chain(_CLASSIC, n))
 
 
 def rectangular(n: int) -> Template:
-    """Draw one edge of a tile from (0, 0) to (1, 0) with a dovetail to its left.
+    """Draw an edge with a square-shouldered dovetail: neck 0.13, head 0.25, height 0.20 of the edge.
 
     Parameters
     ----------
     n : int, points a side; the edge has 5 n segments
-
-    Returns
-    -------
-    Template
-        Neck 0.13, head 0.25, height 0.20 of the edge.
     """
     t = np.linspace(0, 1, n, endpoint=False)[:, None]
     sides = [a + (b - a) * t for a, b in pairwise(_DOVETAIL)]
@@ -114,15 +104,11 @@ def rectangular(n: int) -> Template:
 
 
 def leaning(n: int) -> Template:
-    """Draw one edge of a tile from (0, 0) to (1, 0) with a knob that leans forward, to its left.
+    """Draw an edge with a knob that leans forward.
 
     Parameters
     ----------
     n : int, points a cubic; the edge has 5 n segments
-
-    Returns
-    -------
-    Template
     """
     return Template(_bezier_chain(_LEANING, n))
 
@@ -162,7 +148,7 @@ def moved_knob(points: Floats, factor: float, middle: float) -> Floats:
 
 
 def along(shape: Floats, ends: Floats) -> Floats:
-    """Carry unit curves (n, 2) or (e, n, 2), from (0, 0) to (1, 0), onto edges (e, 2, 2)."""
+    """Place unit curves (n, 2) or (e, n, 2), from (0, 0) to (1, 0), onto edges (e, 2, 2)."""
     a, d = ends[:, None, 0], (ends[:, 1] - ends[:, 0])[:, None]
     normal = np.stack([-d[..., 1], d[..., 0]], -1)
     placed: Floats = a + shape[..., :1] * d + shape[..., 1:] * normal

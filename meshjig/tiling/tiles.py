@@ -173,7 +173,7 @@ class _Tiler:
         self.template = None if unit.template is None else fine_template(unit.template, longest, POINTS)
 
     def chances(self, n_edges: list[int]) -> Chances:
-        """Give the chances of the chart that comes after others, by the edges of those."""
+        """The chances of the chart that comes after others, by the edges of those."""
         turns = None if self.style.turns is None else self.style.turns[sum(n_edges) :]
         return Chances(self.style.seed, len(n_edges) + 1, self.style.random, turns)
 

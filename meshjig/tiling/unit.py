@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.tiling.template import Template, along
 
 __all__ = ["Step", "Unit", "edge_curves", "edge_ends", "knob_sides", "tile_outlines", "tile_steps"]
@@ -104,7 +105,7 @@ def tile_steps(unit: Unit) -> list[list[Step]]:
     ValueError
         A tile's edges are no single closed path that visits each of its corners once.
     """
-    return [_way_around(unit, tile) for tile in range(unit.n_tiles)]
+    return [_path_around(unit, tile) for tile in range(unit.n_tiles)]
 
 
 def tile_outlines(unit: Unit, curves: list[Floats]) -> list[Floats]:
@@ -134,25 +135,20 @@ def _drawn(unit: Unit, curve: Floats, step: Step) -> Floats:
     return (curve if step.forward else curve[::-1]) + np.array(step.shift) @ unit.translations
 
 
-def _way_around(unit: Unit, tile: int) -> list[Step]:
-    onward: dict[tuple[int, ...], tuple[Step, tuple[int, ...]]] = {}
-    sides = np.argwhere(unit.sides[..., 0] == tile)
-    for edge, side in sides:
-        shift = -unit.sides[edge, side, 1:]
-        start, stop = (
-            (int(corner[0]), int(corner[1] + shift[0]), int(corner[2] + shift[1]))
-            for corner in unit.ends[edge, :: 1 if side == 0 else -1]
-        )
-        if start in onward:
-            raise ValueError(f"tile {tile} comes twice through corner {start[0]}")
-        onward[start] = Step(int(edge), bool(side == 0), (int(shift[0]), int(shift[1]))), stop
-    if not onward:
+def _path_around(unit: Unit, tile: int) -> list[Step]:
+    edge, side = np.nonzero(unit.sides[..., 0] == tile)
+    if not len(edge):
         raise ValueError(f"tile {tile} has no edge")
-    first = at = min(onward)
-    steps = []
-    while at in onward:
-        step, at = onward.pop(at)
-        steps.append(step)
-    if at != first or onward:
+    shift = -unit.sides[edge, side, 1:]
+    ends = np.where(side[:, None, None] == 0, unit.ends[edge], unit.ends[edge][:, ::-1])
+    ends[..., 1:] += shift[:, None]
+    start, stop = np.unique(ends.reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 2).T
+    repeated = np.delete(np.arange(len(start)), np.unique(start, return_index=True)[1])
+    if len(repeated):
+        raise ValueError(f"tile {tile} comes twice through corner {ends[repeated[0], 0, 0]}")
+    closed = np.array_equal(np.sort(start), np.sort(stop))
+    if not closed or len(loops := closed_loops(start, stop)) > 1:
         raise ValueError(f"the edges of tile {tile} are not one closed loop")
-    return steps
+    path = np.roll(loops[0], -int(start[loops[0]].argmin()))
+    rows = np.column_stack([edge, side == 0, shift])[path].tolist()
+    return [Step(k, bool(forward), (i, j)) for k, forward, i, j in rows]

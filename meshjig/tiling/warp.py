@@ -33,7 +33,7 @@ class Warp:
     periodic: bool
 
     def __call__(self, points: Floats) -> Floats:
-        """Carry points (..., 2), mm."""
+        """Map points (..., 2), mm."""
         place = (points.reshape(-1, 2) - self.low) / self.extent
         place[:, 1] = np.clip(place[:, 1], 0, 1)
         place[:, 0] = place[:, 0] % 1.0 if self.periodic else np.clip(place[:, 0], 0, 1)
@@ -105,7 +105,7 @@ def random_warp(
 
 
 def _basis(t: Floats, n: int, degree: int, periodic: bool) -> tuple[Ints, Floats]:
-    """Give those of n control points (k, degree + 1) that act at t (k,) in 0..1, and their weights."""
+    """The control points (k, degree + 1), of n, that act at t (k,) in 0..1, and their weights."""
     from scipy.interpolate import BSpline
 
     cells = n if periodic else n - degree
@@ -116,7 +116,7 @@ def _basis(t: Floats, n: int, degree: int, periodic: bool) -> tuple[Ints, Floats
 
 
 def _least_share(warp: Warp, n: Ints) -> float:
-    """Give the least area that is left of a sample triangle, as a share of its own."""
+    """The least area that is left of a sample triangle, as a share of its own."""
     u, v = (np.linspace(0, 1, SAMPLES * int(k) + 1) for k in n)
     grid = np.stack(np.meshgrid(u, v, indexing="ij"), -1) * warp.extent + warp.low
     if warp.periodic:

@@ -3,7 +3,7 @@
 import ast
 from collections.abc import Iterator
 
-NO_BORDERS = {"_way_around", "root"}  # functions: around a tile of a tiling, up a tree of merged regions
+NO_BORDERS = {"root"}  # functions: up a tree of merged regions
 
 
 def walks(tree: ast.AST) -> list[tuple[ast.AST, str]]:

@@ -10,6 +10,7 @@ from meshjig.mesh.measure import (
     face_areas,
     interpolate,
     mesh_volume,
+    signed_area,
     singular_values,
     sums,
     unit,
@@ -56,3 +57,9 @@ def test_the_stretch_of_a_scaled_triangle(scale, values):
 def test_small_words():
     assert sums(np.array([1, 1, 3]), np.array([1.0, 2, 5]), 5).tolist() == [0, 3, 0, 5, 0]
     assert unit(np.array([[3.0, 4], [0, 0]])).tolist() == [[0.6, 0.8], [0, 0]]
+
+
+def test_area_of_a_ring_tells_which_way_it_runs():
+    ring = np.array([[1.0, 1], [5, 1], [5, 4], [3, 2]])
+    assert signed_area(ring) == pytest.approx(5.0)
+    assert signed_area(ring[::-1]) == pytest.approx(-5.0)

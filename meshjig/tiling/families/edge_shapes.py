@@ -37,7 +37,7 @@ def _half_knob(size: float) -> Floats:
 
 
 def neck_width(letter: str, size: float) -> float:
-    """Give how wide the necks of an edge from (0, 0) to (1, 0) are; no neck is as wide as any.
+    """Measure the narrowest neck of an edge from (0, 0) to (1, 0); no neck is as wide as any.
 
     Parameters
     ----------

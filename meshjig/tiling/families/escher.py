@@ -70,7 +70,7 @@ def unit(name: str) -> Unit:
 
 
 def decor(name: str) -> list[list[Floats]]:
-    """Give the lines drawn inside a figure: eyes, mouth, scales.
+    """Draw the lines inside a figure: eyes, mouth, scales.
 
     Parameters
     ----------

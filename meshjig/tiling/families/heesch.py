@@ -19,7 +19,7 @@ _STEPS = 4  # from neighbour to neighbour, to all turns and to two translations
 class Pair:
     """Two edges that are alike, or one edge that is its own other half turned.
 
-    A motion carries the tile onto its neighbour, and the first edge onto the second: it mirrors the
+    A motion takes the tile onto its neighbour, and the first edge onto the second: it mirrors the
     plane at the x axis where mirrored is set, then turns it. Mirrored edges run the same way around
     the tile, others run against each other.
     """
@@ -35,7 +35,7 @@ class Pair:
         return Motion(complex(np.exp(1j * np.radians(self.degrees))), 0.0, self.mirrored)
 
     def motion(self, corners: Complex) -> "Motion":
-        """Give the motion for a tile with corners (c,)."""
+        """The motion for a tile with corners (c,)."""
         last = (self.second + (not self.mirrored)) % len(corners)
         move = corners[last] - self.turn(corners[self.first : self.first + 1])[0]
         return Motion(self.turn.factor, complex(move), self.mirrored)
@@ -50,17 +50,17 @@ class Motion:
     mirrored: bool = False
 
     def __call__(self, points: Complex) -> Complex:
-        """Carry points."""
-        carried: Complex = self.factor * (points.conj() if self.mirrored else points) + self.move
-        return carried
+        """Map points."""
+        moved: Complex = self.factor * (points.conj() if self.mirrored else points) + self.move
+        return moved
 
     def after(self, other: "Motion") -> "Motion":
-        """Give the motion that does the other one first."""
+        """The motion that does the other one first."""
         factor, move = self._flipped(other.factor), self._flipped(other.move)
         return Motion(self.factor * factor, self.factor * move + self.move, self.mirrored ^ other.mirrored)
 
     def back(self) -> "Motion":
-        """Give the motion that undoes this one."""
+        """The motion that undoes this one."""
         return Motion(self._flipped(1 / self.factor), self._flipped(-self.move / self.factor), self.mirrored)
 
     def is_turned_like(self, other: "Motion") -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.measure import signed_area
 from meshjig.tiling.assemble_unit import assemble
 from meshjig.tiling.families.edge_shapes import EDGE_SHAPES, neck_width, with_symmetry
 from meshjig.tiling.svg.read_paths import bounded
@@ -27,14 +28,14 @@ _WALLS = np.arange(0.05, 0.16, 0.015)  # of a tile's edge: what may be left betw
 def isohedral(name: str, seed: int = 0) -> Unit:
     """Shape the edges of an isohedral tiling so that its tiles interlock.
 
-    Knobs are as large, and point the ways, that leave the widest necks and walls: at least 5 % of the
-    tile's edge. Edges of one's own are drawn in a file: the first path is for the tile's first edge and
-    those that are copies of it, the second one for the second, and so on, from the first again.
+    Knobs are as large, and point to the sides, that leave the widest necks and walls: at least 5 % of
+    the tile's edge. Edges of one's own are drawn in a file: the first path is for the tile's first edge and
+    those that are copies of it, the second one for the second, and so on, in turn.
 
     Parameters
     ----------
     name : str, IH1 to IH93, or such and the path of an SVG file, with a colon between the two
-    seed : int, decides which way the knobs point where several ways are as good
+    seed : int, decides to which sides the knobs point where several choices are as good
 
     Returns
     -------
@@ -104,12 +105,12 @@ def _tiling(number: int) -> Any:
 def _shaped(
     tiling: Any, scale: float, rng: np.random.Generator, own: list[Floats] | None
 ) -> Iterator[tuple[list[Floats], float]]:
-    """Draw the tile's edges, in turn around it, for all ways their knobs may point; ever smaller knobs.
+    """Draw the tile's edges, in turn around it, with knobs to whichever sides; ever smaller knobs.
 
-    Also give the width of the narrowest neck, in tile's edges.
+    With them comes the width of the narrowest neck, in tile's edges.
     """
     shapes = list(tiling.shapes)
-    ways = np.array(list(product((1.0, -1.0), repeat=1 + max(shape.id for shape in shapes))))
+    choices = np.array(list(product((1.0, -1.0), repeat=1 + max(shape.id for shape in shapes))))
     matrices = [np.reshape(shape.T, (2, 3)) for shape in shapes]
     length = [float(np.linalg.norm(matrix[:, 0])) / scale for matrix in matrices]
     for size in _SIZES.tolist() if own is None else (1.0,):
@@ -128,10 +129,10 @@ def _shaped(
                 for shape, by, edge in zip(shapes, factors, length, strict=True)
             )
         )
-        for way in rng.permutation(ways):
+        for side in rng.permutation(choices):
             yield (
                 [
-                    _moved(curve[:: -1 if shape.rev else 1] * (1.0, way[shape.id]), matrix)
+                    _moved(curve[:: -1 if shape.rev else 1] * (1.0, side[shape.id]), matrix)
                     for curve, shape, matrix in zip(curves, shapes, matrices, strict=True)
                 ],
                 neck,
@@ -139,7 +140,7 @@ def _shaped(
 
 
 def _thinnest(edges: list[Floats], scale: float, least: float) -> float:
-    """Give the width up to which walls can be taken off a tile that stays in one piece; 0, if no more."""
+    """The width up to which walls can be taken off a tile that stays in one piece; 0, if no more."""
     import shapely
 
     tile = shapely.Polygon(np.vstack([curve[:-1] for curve in edges]))
@@ -157,8 +158,7 @@ def _placed(edges: list[Floats], aspect: list[float]) -> list[Floats]:
     """Carry the tile to one of its places, counterclockwise there too."""
     matrix = np.reshape(aspect, (2, 3))
     edges = [_moved(curve, matrix) for curve in edges]
-    x, y = np.vstack([curve[:-1] for curve in edges]).T
-    if np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) < 0:
+    if signed_area(np.vstack([curve[:-1] for curve in edges])) < 0:
         edges = [curve[::-1] for curve in edges[::-1]]
     return edges
 

@@ -133,7 +133,7 @@ def _next_pair(
 
 
 def _neighbours(cells: list[Cell], owner: Owner, period: Cell) -> set[tuple[int, Cell]]:
-    """Give the tiles around, and how far their squares are moved to lie there."""
+    """The tiles around, and how far their squares are moved to lie there."""
     found = set()
     for i, j in cells:
         for di, dj in _BESIDE:

@@ -30,7 +30,7 @@ def polar_net(polygon: Any, pole: Floats, around: CapBorder, plan: PolePlan) -> 
 
     Returns
     -------
-    PolarNet, or None where a spoke would leave the cap on its way to the pole
+    PolarNet, or None where a spoke would leave the cap before the pole
     """
     import shapely
 
@@ -81,13 +81,13 @@ def around_chart(polygon: Any) -> PolarNet:
 
 
 def _angles(away: Floats) -> Floats:
-    """Give the angles of directions (n, 2), 0 to 2 pi."""
+    """The angles of directions (n, 2), 0 to 2 pi."""
     angle: Floats = np.arctan2(away[:, 1], away[:, 0]) % (2 * np.pi)
     return angle
 
 
 def _towards(around: CapBorder, pole: Floats) -> Floats:
-    """Give the ends of spokes a little before the cap's border, (n, 2)."""
+    """The ends of spokes a little before the cap's border, (n, 2)."""
     away = pole - around.start
     length = np.linalg.norm(away, axis=1, keepdims=True)
     ends: Floats = around.start + away / length * np.minimum(STUB, length / 2)
@@ -95,7 +95,7 @@ def _towards(around: CapBorder, pole: Floats) -> Floats:
 
 
 def _spread(outer: Floats, counts: tuple[int, ...], polygon: Any, pole: Floats) -> list[Floats]:
-    """Give where the tiles of each row begin, angles, from the outermost row inward."""
+    """Where the tiles of each row begin, angles, from the outermost row inward."""
     share, angle = _shares(polygon, pole)
     rows = [outer]
     for n in counts:
@@ -115,7 +115,7 @@ def _spread(outer: Floats, counts: tuple[int, ...], polygon: Any, pole: Floats) 
 
 
 def _shares(polygon: Any, pole: Floats) -> tuple[Floats, Floats]:
-    """Give the share of a cap's area before angles seen from its pole, and these, 0 to 2 pi."""
+    """The share of a cap's area before angles seen from its pole, and these, 0 to 2 pi."""
     import shapely
 
     step = 0.02 * float(np.sqrt(polygon.area))

@@ -143,7 +143,7 @@ def _crossed(curves: Floats) -> Bools:
 
 
 def _depth(pole: Pole, border: CapBorder, net: TileNet) -> float:
-    """Give how far the ring's tiles that end on a cap reach away from it, mm: half of them farther."""
+    """How far the ring's tiles that end on a cap reach away from it, mm: half of them farther."""
     level = float(pole.there[..., 1].mean())
     ahead = np.sign(net.nodes[:, 1].mean() - level)
     depth = []
@@ -154,7 +154,7 @@ def _depth(pole: Pole, border: CapBorder, net: TileNet) -> float:
 
 
 def _middle(polygon: Any, tip: Floats | None) -> Floats:
-    """Give the place of the pole: the tip, else the middle of the area, else of a disc, if well inside."""
+    """The place of the pole: the tip, else the middle of the area, else of a disc, if well inside."""
     import shapely
 
     inside = shapely.buffer(polygon, -INSIDE * np.sqrt(polygon.area / np.pi))

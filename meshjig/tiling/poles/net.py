@@ -10,7 +10,7 @@ from meshjig.tiling.net import TileNet
 __all__ = ["Border", "Circle", "PolarBend", "PolarNet", "Reach"]
 
 FADED = 1.3  # times as far from the pole as the outermost border, nothing moves any more
-NEAREST = 0.6  # of the way to the cap's border, that the border inside it is drawn near the pole at most
+NEAREST = 0.6  # of the distance to the cap's border, that the border inside it is drawn near the pole at most
 SLANTED = 1.5  # times as far from the pole as the other, one end of a border's edge is where it has a knob
 WIDEST = 1.6  # radians between corners of a border around the pole: more can't be bent round well
 
@@ -37,7 +37,7 @@ class PolarBend:
         self.pole, self.circles = pole, circles
 
     def __call__(self, points: Floats) -> Floats:
-        """Carry points (..., 2), mm."""
+        """Map points (..., 2), mm."""
         if not self.circles:
             return points
         away = points.reshape(-1, 2) - self.pole
@@ -48,10 +48,10 @@ class PolarBend:
             straight, around = _radii(circle, angle)
             drawn.append(straight)
             wanted.append(around)
-        rim = wanted[0] * FADED
-        after = np.where(before >= rim, before, np.nan)
-        outside = (rim, rim)
-        for straight, around in [*zip(drawn, wanted, strict=True), (0 * rim, 0 * rim)]:
+        last = wanted[0] * FADED
+        after = np.where(before >= last, before, np.nan)
+        outside = (last, last)
+        for straight, around in [*zip(drawn, wanted, strict=True), (0 * last, 0 * last)]:
             share = (before - straight) / np.maximum(outside[0] - straight, 1e-300)
             here = np.isnan(after) & (before >= straight)
             after = np.where(here, around + share * (outside[1] - around), after)
@@ -86,12 +86,12 @@ class PolarNet:
         self.may_have_knob.append(knob)
 
     def own(self, n: int) -> list[int]:
-        """Give n new tiles."""
+        """Add n tiles of the cap's own."""
         self.n_own += n
         return list(range(self.n_own - n, self.n_own))
 
     def net(self, ring_label: int) -> tuple[TileNet, Bools]:
-        """Give the net, the ring's labels counted from a number, and which edges may have a knob."""
+        """The net, the ring's labels counted from a number, and which edges may have a knob."""
         sides = np.array(self.sides, np.int64)
         sides = np.where(sides < 0, ring_label - 1 - sides, sides)
         n, none = len(self.ends), np.zeros((len(self.ends), 2), np.int64)
@@ -126,7 +126,7 @@ class Reach:
         self.far = float(np.hypot(*(low[2:] - low[:2])))
 
     def point(self, angle: float, level: float) -> Floats:
-        """Give the point of a border at an angle; the outermost is as far from the cap's all around."""
+        """The point of a border at an angle; the outermost is as far from the cap's all around."""
         import shapely
 
         ahead = np.array([np.cos(angle), np.sin(angle)])
@@ -140,7 +140,7 @@ class Reach:
         return place
 
     def away(self, point: Floats) -> float:
-        """Give how far from the pole a point is."""
+        """The distance of a point from the pole."""
         return float(np.linalg.norm(point - self.pole))
 
 
@@ -152,7 +152,7 @@ class Border:
         self.nodes: dict[float, int] = {}
 
     def at(self, angle: float) -> int:
-        """Give the node at an angle, a new one if need be."""
+        """The node at an angle, a new one if need be."""
         if angle not in self.nodes:
             self.nodes[angle] = self.made.node(self.reach.point(angle, self.level))
         return self.nodes[angle]
@@ -173,20 +173,20 @@ class Border:
             self.made.edge(start, stop, _tile_at(*inner, middle), _tile_at(*outer, middle), knob)
 
     def circle(self) -> Circle:
-        """Give the border's corners in polar coordinates."""
+        """The border's corners in polar coordinates."""
         turns = sorted(self.nodes)
         away = np.array([self.made.nodes[self.nodes[turn]] for turn in turns]) - self.reach.pole
         return Circle(np.array(turns), np.linalg.norm(away, axis=1))
 
 
 def _tile_at(turns: Floats, tiles: list[int], angle: float) -> int:
-    """Give the tile of a row that lies at an angle."""
+    """The tile of a row that lies at an angle."""
     begun = (angle - turns) % (2 * np.pi)
     return tiles[int(begun.argmin())]
 
 
 def _radii(circle: Circle, angle: Floats) -> tuple[Floats, Floats]:
-    """Give the radius of a polygon at angles (k,), and that of the curve that it becomes."""
+    """The radius of a polygon at angles (k,), and that of the curve that it becomes."""
     n = len(circle.angle)
     k = (np.searchsorted(circle.angle, angle, side="right") - 1) % n
     a, b = circle.radius[k], circle.radius[(k + 1) % n]

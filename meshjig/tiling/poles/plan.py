@@ -24,7 +24,7 @@ STEPS = 15  # widths tried for what the ring's tiles have of a cap
 
 @dataclass(frozen=True)
 class PolePlan:
-    """Levels are shares of the way from the pole to the cap's border."""
+    """Levels are shares of the distance from the pole to the cap's border."""
 
     levels: tuple[float, ...]  # from 1 inward: each row's outer border, and that of the middle
     counts: tuple[int, ...]  # tiles in each row but the first, which is the ring's, then wedges in the middle

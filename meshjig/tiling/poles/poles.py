@@ -19,7 +19,7 @@ POINTED = 0.8  # radians of angle that are missing around a tip
 
 @dataclass(frozen=True)
 class Pole:
-    """A cap chart whose whole border is one rim of a ring chart, edge by edge in both planes."""
+    """A cap chart whose whole border is one border of a ring chart, edge by edge in both planes."""
 
     cap: int  # the chart
     ring: int  # the periodic chart
@@ -95,7 +95,7 @@ def cap_border(pole: Pole, outlines: Outlines, least: float) -> CapBorder:
 
 
 def _partners(key: Ints) -> Ints:
-    """Give the other row with the same key, (k,), -1 where there is none."""
+    """The other row with the same key, (k,), -1 where there is none."""
     order = np.argsort(key, kind="stable")
     twice = np.flatnonzero(key[order][1:] == key[order][:-1])
     other = np.full(len(key), -1)
@@ -104,7 +104,7 @@ def _partners(key: Ints) -> Ints:
 
 
 def _tip(atlas: Atlas, cap: int) -> Floats | None:
-    """Give the place of the vertex inside a cap around which most of the angle is missing."""
+    """The place of the vertex inside a cap around which most of the angle is missing."""
     faces = np.flatnonzero(atlas.chart_of_face == cap)
     X, rows = atlas.mesh.V[atlas.mesh.F[faces]], atlas.F_uv[faces]
     ahead = unit(np.roll(X, -1, 1) - X)
@@ -117,7 +117,7 @@ def _tip(atlas: Atlas, cap: int) -> Floats | None:
 
 
 def _crossings(border: Floats, outlines: Outlines) -> tuple[Ints, Floats, Ints]:
-    """Give where cuts cross edges (k, 2, 2), in order: edge, place 0 to 1 along it, and the tile after."""
+    """Where cuts cross edges (k, 2, 2), in order: edge, place 0 to 1 along it, and the tile after."""
     import shapely
 
     ends = outlines.points[outlines.segments]
@@ -146,9 +146,9 @@ def _long_enough(at: Floats, tile: Ints, around: float, least: float) -> Ints:
         length = np.roll(begin, -1) - begin
         length[-1] += around
         name = tile[[k for _, k in runs]]
-        again = np.flatnonzero(name == np.roll(name, 1))
-        if len(again):
-            del runs[int(again[0])]
+        like_before = np.flatnonzero(name == np.roll(name, 1))
+        if len(like_before):
+            del runs[int(like_before[0])]
             continue
         k = int(length.argmin())
         if length[k] >= least or len(runs) == 2:

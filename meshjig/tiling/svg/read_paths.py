@@ -34,7 +34,7 @@ def bounded(reader: Callable[[str], Drawn], path: str | Path) -> Drawn:
 
 
 def shown_parts(path: str | Path) -> Iterator[tuple[str, Any]]:
-    """Give every subpath that is shown, in the drawing's coordinates, and the name of its path.
+    """List every subpath that is shown, in the drawing's coordinates, and the name of its path.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def shown_parts(path: str | Path) -> Iterator[tuple[str, Any]]:
     try:
         drawing = svgelements.SVG.parse(str(path), reify=True)
         to_file = ~svgelements.Matrix(drawing.viewbox_transform or "")
-    except Exception as error:  # malformed attributes make the parser fail in any way
+    except Exception as error:  # malformed attributes make the parser raise anything
         raise OptionError(f"{path} can't be read as SVG: {error}") from None
     number = 0
     for element in drawing.elements():
@@ -105,7 +105,7 @@ def _is_shown(element: Any) -> bool:
 
 
 def _polyline(segment: Any, tolerance: float) -> Floats:
-    """Give the points of a segment after its start, (k, 2)."""
+    """The points of a segment after its start, (k, 2)."""
     import svgelements
 
     if isinstance(segment, svgelements.Line | svgelements.Close):

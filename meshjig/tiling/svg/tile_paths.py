@@ -9,6 +9,7 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.mesh.arrays import Bools, Floats
+from meshjig.mesh.measure import signed_area
 from meshjig.tiling.svg.read_paths import place, polyline, shown_parts
 
 __all__ = ["SNAP", "Outline", "read_edges", "read_outlines"]
@@ -27,7 +28,7 @@ class Outline:
     node: Bools  # (n,), drawn as a node; the rest are points of curves
 
     def sharpest(self, most: int) -> Floats:
-        """Give the nodes (k, 2) at which the outline turns most, and no more than so many."""
+        """The nodes (k, 2) at which the outline turns most, and no more than so many."""
         along = np.roll(self.points, -1, 0) - self.points
         before = np.roll(along, 1, 0)
         turn = np.arctan2(before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0], (before * along).sum(1))
@@ -106,7 +107,7 @@ def read_edges(path: str | Path) -> list[Floats]:
 
 
 def _outlines(part: Any, name: str, path: str | Path) -> Iterator[Outline]:
-    """Give the outline that a subpath draws; none for a lone point."""
+    """The outline that a subpath draws; none for a lone point."""
     import svgelements
 
     points, node = polyline(part)
@@ -140,10 +141,7 @@ def _check_simple(points: Floats, name: str, path: str | Path) -> None:
 
 
 def _counterclockwise(points: Floats, node: Bools) -> tuple[Floats, Bools]:
-    x, y = points.T
-    if np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) < 0:
-        return points[::-1], node[::-1]
-    return points, node
+    return (points[::-1], node[::-1]) if signed_area(points) < 0 else (points, node)
 
 
 def _on_unit_edge(points: Floats) -> Floats:

@@ -14,8 +14,8 @@ _CANDIDATES = 64
 _PAIRS = 40  # pairs of candidates that are laid out in full
 _FINE = (4_000, 60_000)  # least and most points along all borders, as many as the tolerance asks for
 _COARSE = 800  # most of them that are laid on moved copies
-_NEAREST = 4  # points looked at, for one that runs the other way
-_OPPOSITE = -0.8  # cosine between stretches that count as running opposite ways
+_NEAREST = 4  # points looked at, for one that runs against it
+_OPPOSITE = -0.8  # cosine between stretches that count as opposite
 _OPPOSITE_VOTERS = -0.9  # and between those that vote
 
 
@@ -53,7 +53,7 @@ class Border:
         Returns
         -------
         (n,) float64
-            1 on a stretch of a copy that runs the other way, falling to 0 at the tolerance.
+            1 on a stretch of a copy that runs against it, falling to 0 at the tolerance.
         """
         apart, nearest = self._tree.query(self.points - by, k=_NEAREST, distance_upper_bound=self._reach)
         found = np.isfinite(apart)
@@ -75,7 +75,7 @@ class Border:
 
 
 def find_translations(border: Border, nodes: Floats, area: float) -> Floats | None:
-    """Move stretches of border onto those that run the other way, and vote.
+    """Move stretches of border onto those that run against them, and vote.
 
     Wherever two tiles meet, a stretch of one border lies on a stretch of another: the translations
     between the two are voted for by every point of them. Of the pairs of translations that span
@@ -84,7 +84,7 @@ def find_translations(border: Border, nodes: Floats, area: float) -> Floats | No
     Parameters
     ----------
     border : Border, of all outlines
-    nodes : (n, 2) float64, points of the outlines that translations carry onto each other exactly
+    nodes : (n, 2) float64, points of the outlines that translations move onto each other exactly
     area : float, of all outlines
 
     Returns
@@ -113,7 +113,7 @@ def find_translations(border: Border, nodes: Floats, area: float) -> Floats | No
 
 
 def _voted(border: Border, area: float) -> list[Floats]:
-    """Give the differences (2,) between points on opposite stretches that are most frequent."""
+    """The differences (2,) between points on opposite stretches that are most frequent."""
     from scipy.ndimage import maximum_filter, uniform_filter
 
     opposite = border.directions @ border.directions.T < _OPPOSITE_VOTERS
@@ -144,7 +144,7 @@ def _voted(border: Border, area: float) -> list[Floats]:
 
 
 def _exact(border: Border, rough: Floats, nodes: Any) -> Floats:
-    """Give the translation near a rough one that fits best: one between two nodes, where there is one."""
+    """The translation near a rough one that fits best: one between two nodes, where there is one."""
     from scipy.spatial import cKDTree
 
     pairs = nodes.query_ball_tree(cKDTree(nodes.data - rough), 4 * border.spacing)
@@ -160,7 +160,7 @@ def _exact(border: Border, rough: Floats, nodes: Any) -> Floats:
 
 
 def _reduced(pair: Floats) -> Floats:
-    """Give the shortest vectors of the same lattice."""
+    """The shortest vectors of the same lattice."""
     a, b = sorted(pair, key=np.linalg.norm)
     while True:
         b = b - np.rint(a @ b / (a @ a)) * a
@@ -192,7 +192,7 @@ def _lengths(ring: Floats) -> Floats:
 
 
 def _evenly(ring: Floats, n: int) -> tuple[Floats, Floats]:
-    """Give n points along a ring and its direction there."""
+    """Evenly spaced points along a ring, n of them, and its direction there."""
     lengths = _lengths(ring)
     before = np.r_[0.0, lengths.cumsum()]
     along = (np.arange(n) + 0.5) * before[-1] / n

@@ -9,6 +9,7 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.measure import signed_area
 from meshjig.tiling.assemble_unit import NoOtherSide, assemble
 from meshjig.tiling.check_unit import check_unit, locked_edges
 from meshjig.tiling.svg.corners import copies_around, split_at_corners
@@ -51,7 +52,7 @@ def user_unit(path: str | Path) -> Unit:
     """
     outlines = bounded(read_outlines, path)
     rings = [outline.points for outline in outlines]
-    area = sum(_area(ring) for ring in rings)
+    area = sum(signed_area(ring) for ring in rings)
     tolerance = SNAP * float(np.sqrt(area / len(rings)))
     nodes = np.vstack([outline.sharpest(_NODES // len(outlines)) for outline in outlines])
     translations = find_translations(Border(rings, tolerance), nodes, area)
@@ -139,7 +140,7 @@ def _check_overlaps(
 
 
 def _thickest(shape: Any, tolerance: float) -> Floats | None:
-    """Give a point in the largest part of a shape that is thicker than the tolerance."""
+    """A point in the largest part of a shape that is thicker than the tolerance."""
     import shapely
 
     parts = shapely.get_parts(shape.buffer(-tolerance / 2))
@@ -148,11 +149,6 @@ def _thickest(shape: Any, tolerance: float) -> Floats | None:
         return None
     largest = parts[np.argmax(shapely.area(parts))]
     return np.array(largest.representative_point().coords[0])
-
-
-def _area(ring: Floats) -> float:
-    x, y = ring.T
-    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
 
 
 def _densified(unit: Unit) -> Unit:
