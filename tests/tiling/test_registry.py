@@ -52,6 +52,16 @@ def _package(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
 
 
+def test_what_other_packages_import_stays_where_it_is():
+    from meshjig.tiling import Unit
+    from meshjig.tiling.template import Template
+    from meshjig.tiling.unit import Unit as TheSame
+
+    unit = get_family("classic")
+    assert Unit is TheSame is type(unit)
+    assert isinstance(unit.template(4), Template)
+
+
 def test_all_names_have_one_line_about_them():
     names = dict(family_names())
     assert {"classic", "rectangular", "macro", "hex", "polyomino", "isohedral:IHnn", "FILE.svg"} <= set(names)

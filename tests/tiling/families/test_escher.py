@@ -1,5 +1,9 @@
 """Figures interlock by their outlines, can be printed, and their inner lines stay inside."""
 
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+
 import numpy as np
 import pytest
 import shapely
@@ -25,6 +29,16 @@ def name(request):
 def test_there_are_at_least_three_figures_with_a_lizard_among_them():
     assert len(set(escher.names())) >= 3
     assert "lizard" in escher.names()
+
+
+def test_every_figure_has_a_file_and_each_file_is_a_figure():
+    kept = {path.name for path in (files("meshjig.tiling.families") / "figures").iterdir()}
+    assert kept == {f"{name}.json" for name in escher.names()}
+
+
+def test_figures_are_packed_with_the_package():
+    project = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())
+    assert "figures/*.json" in project["tool"]["setuptools"]["package-data"]["meshjig.tiling.families"]
 
 
 def test_figures_cover_the_plane_once(name):
