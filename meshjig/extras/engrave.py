@@ -138,7 +138,9 @@ def _carver(V: Floats, F: Ints, place: Place, outline: Any, inset: float, depth:
     text = groove(outline, inset)
     corners = local[F]
     within = (np.abs(corners[..., :2]).min(axis=1) <= np.array(outline.bounds[2:])).all(axis=1)
-    if np.ptp(corners[within, :, 2]) > _FLAT:
+    flat_text = arrays(text)[0][:, :2]
+    heights = corners[within, :, 2] if within.any() else _sheet_at(local, F, flat_text)[0]
+    if np.ptp(heights) > _FLAT:
         text = text.refine_to_length(_FINE)
     points = arrays(text)[0]
     height, slant = _sheet_at(local, F, points[:, :2])
