@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints, ranks, row_of
 from meshjig.mesh.halfedges import edges, next_halfedge
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["outer_gap"]
 
@@ -77,8 +77,8 @@ def _borders(F: Ints, piece: Ints) -> tuple[Ints, Ints, Ints]:
 def _samples(V: Floats, a: Ints, b: Ints, spacing: float) -> tuple[Floats, Ints]:
     """Spread points over edges, each at the middle of its stretch; and the edge of each."""
     n = np.maximum(1, np.ceil(np.linalg.norm(V[a] - V[b], axis=1) / max(spacing, 1e-6))).astype(np.int64)
-    edge = np.repeat(np.arange(len(a)), n)
-    t = (np.arange(len(edge)) - np.repeat(np.cumsum(n) - n, n) + 0.5) / n[edge]
+    edge = row_of(n)
+    t = (ranks(n) + 0.5) / n[edge]
     return V[a[edge]] + (V[b[edge]] - V[a[edge]]) * t[:, None], edge
 
 

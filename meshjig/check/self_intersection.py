@@ -6,6 +6,7 @@ Only this test tells.
 
 import numpy as np
 
+from meshjig.mesh.intersections import crossing_faces
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.mesh.validated import sound_piece
@@ -40,12 +41,9 @@ def self_intersections(V: Floats, F: Ints, depth: float = 0.005) -> Ints:
     Sheets that lie flat upon themselves enclose nothing between them; their depth is 0. Faces
     without area are left out. About 2 microseconds a face.
     """
-    import igl.copyleft.cgal as cgal
-
     V, F = sound_piece(V, F)
     solid = np.flatnonzero(_has_area(V, F))
-    found = np.asarray(cgal.remesh_self_intersections(V, F[solid], detect_only=True)[2])
-    pairs = np.sort(solid[found.reshape(-1, 2).astype(np.int64)], axis=1)
+    pairs = np.sort(solid[crossing_faces(V, F[solid])], axis=1)
     pairs = pairs[crossing_depth(V, F, pairs) > depth]
     return pairs[np.lexsort(pairs.T[::-1])]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.boundary_loops import follow
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import face_areas, unit
@@ -34,14 +35,9 @@ def closed_over(V: Floats, F: Ints) -> tuple[Floats, Ints, float]:
     a, b = F.ravel()[h], F.ravel()[next_halfedge(h)]
     before = np.full(len(V), -1)
     before[b] = a
-    lids, left = [], set(b.tolist())
-    while left:
-        loop = [left.pop()]
-        while (vertex := int(before[loop[-1]])) != loop[0]:
-            left.discard(vertex)
-            loop.append(vertex)
-        lids.append(_lid(V, np.array(loop)))
-    lid = np.concatenate(lids)
+    seen: set[int] = set()
+    loops = [follow(before, first, seen) for first in set(b.tolist()) if first not in seen]
+    lid = np.concatenate([_lid(V, np.array(loop)) for loop in loops])
     return V, np.concatenate([F, lid]), float(face_areas(V, lid).sum())
 
 

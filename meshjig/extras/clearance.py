@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.extras.depth import Depth
+from meshjig.mesh.arrays import ranks, row_of
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.types import Bools, Floats, Ints
@@ -89,6 +90,5 @@ def _outstanding(around: Depth, spacing: float) -> Floats:
     crease &= np.einsum("ij,ij->i", tip - a, N[h // 3]) > 0
     a, b = a[crease], b[crease]
     count = np.ceil(np.linalg.norm(b - a, axis=1) / spacing).astype(np.int64)
-    which = np.repeat(np.arange(len(a)), count)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
-    return np.concatenate([V, a[which] + ((rank + 0.5) / count[which])[:, None] * (b - a)[which]])
+    which = row_of(count)
+    return np.concatenate([V, a[which] + ((ranks(count) + 0.5) / count[which])[:, None] * (b - a)[which]])

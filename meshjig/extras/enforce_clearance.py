@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.extras.clearance import Room
 from meshjig.extras.depth import Depth
 from meshjig.mesh.halfedges import edges
+from meshjig.mesh.intersections import crossing_faces
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.types import Floats, Ints
 
@@ -93,12 +94,9 @@ def _stepped(V: Floats, F: Ints, step: Floats) -> Floats:
 
 def _uncrossed(V: Floats, first: Floats, F: Ints) -> Floats:
     """Send vertices back to where they came from until no two faces cross, as none did there."""
-    import igl.copyleft.cgal as cgal
-
     V = V.copy()
     while True:
-        crossing = np.asarray(cgal.remesh_self_intersections(V, F, detect_only=True)[2]).reshape(-1, 2)
-        back = np.unique(F[crossing])
+        back = np.unique(F[crossing_faces(V, F)])
         back = back[(V[back] != first[back]).any(axis=1)]
         if not len(back):
             return V

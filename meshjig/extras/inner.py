@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.rays import RayScene
 from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["wall_behind"]
@@ -53,10 +53,5 @@ def wall_behind(pieces: Sequence[tuple[Floats, Ints]], outer: Mesh, D: Floats) -
 
 def _hits(mesh: Mesh, origin: Floats, toward: Floats) -> tuple[Ints, Floats]:
     """Give the first face that each ray meets, -1 for none, and the way there."""
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
-
-    scene = rtcore_scene.EmbreeScene(robust=True)
-    TriangleMesh(scene, mesh.V[mesh.F].astype(np.float32))
-    found: dict[str, Any] = scene.run(origin.astype(np.float32), toward.astype(np.float32), output=1)
+    found = RayScene(mesh.V, mesh.F).hits(origin, toward)
     return np.asarray(found["primID"], np.int64), np.asarray(found["tfar"], np.float64)

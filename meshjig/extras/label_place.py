@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import ranks, row_of
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
@@ -142,17 +143,15 @@ def _points_along(V: Floats, F: Ints, h: Ints) -> Floats:
     """Put points along half-edges, evenly enough; (k, d)."""
     a, b = V[F.ravel()[h]], V[F.ravel()[next_halfedge(h)]]
     count = np.maximum(np.ceil(np.linalg.norm(b - a, axis=1) / _STEP), 1).astype(np.int64)
-    which = np.repeat(np.arange(len(h)), count)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
-    return a[which] + ((rank + 0.5) / count[which])[:, None] * (b - a)[which]
+    which = row_of(count)
+    return a[which] + ((ranks(count) + 0.5) / count[which])[:, None] * (b - a)[which]
 
 
 def _spots(V: Floats, F: Ints) -> Floats:
     """Spread points over faces, at least one in each, in an order that skips about; (k, 3)."""
     area = np.linalg.norm(area_vectors(V, F), axis=1) / 2
     count = np.maximum(np.ceil(area / _GRAIN), 1).astype(np.int64)
-    which = np.repeat(np.arange(len(F)), count)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    which, rank = row_of(count), ranks(count)
     u, v = (rank * 0.7548776662 + 1 / 3) % 1, (rank * 0.5698402910 + 1 / 3) % 1
     over = u + v > 1
     u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)

@@ -1,10 +1,10 @@
 """Which borders and which pieces could be taken for one another, as rigid motions bring them together."""
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.boundary_loops import follow
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.types import CutMesh, Floats, Ints
 
@@ -45,8 +45,10 @@ def borders(cut: CutMesh, piece_of_face: Ints) -> list[list[Border]]:
     order = np.argsort(start, kind="stable")
     following = order[np.searchsorted(start[order], end, side="right") - 1]
     found: list[list[Border]] = [[] for _ in range(int(piece_of_face.max(initial=-1)) + 1)]
-    for row in _loops(following.tolist()):
-        loop = rim[row]
+    seen: set[int] = set()
+    after = following.tolist()
+    for row in (follow(after, first, seen) for first in range(len(after)) if first not in seen):
+        loop = rim[row]  # that of a pinched rim may end in a loop met before
         across = beyond[loop]
         change = np.flatnonzero(across != np.roll(across, 1))
         loop = np.roll(loop, -int(change[0])) if len(change) else loop
@@ -55,19 +57,6 @@ def borders(cut: CutMesh, piece_of_face: Ints) -> list[list[Border]]:
         for run in np.split(loop, change[1:]):
             mine.append(Border(int(piece[run[0]]), int(beyond[run[0]]), run))
     return found
-
-
-def _loops(following: list[int]) -> Iterator[list[int]]:
-    """Give the loops of a successor map one by one; a pinched rim may end in a loop given before."""
-    left = [True] * len(following)
-    for first in range(len(following)):
-        at, loop = first, []
-        while left[at]:
-            left[at] = False
-            loop.append(at)
-            at = following[at]
-        if loop:
-            yield loop
 
 
 def congruent_borders(

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from meshjig.layout.undercut import undercuts
+from meshjig.mesh.arrays import ranks, row_of
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Bools, CutMesh, Floats, Ints, Knobs
@@ -120,8 +121,8 @@ def interlock(cut: CutMesh, knobs: Knobs, piece_of_face: Ints) -> Interlock:
 def _points_along(parts: Floats, of: Ints, spacing: float) -> tuple[Floats, Ints]:
     """Give points (k, 3) along straight parts (e, 2, 3), ends included, and what they belong to, (k,)."""
     n = np.ceil(np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1) / spacing).astype(np.int64) + 1
-    row = np.repeat(np.arange(len(n)), n)
-    t = (np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)) / np.maximum(n[row] - 1, 1)
+    row = row_of(n)
+    t = ranks(n) / np.maximum(n[row] - 1, 1)
     return parts[row, 0] + t[:, None] * (parts[row, 1] - parts[row, 0]), of[row]
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.layout.stitch import stitch, sum_borders
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.measure import unit as unit_length
@@ -183,14 +184,9 @@ def _regions_at(region: Any, label: Ints, wanted: Ints, points: Floats) -> Ints:
 
 
 def _one_over_seams(label: Ints, here: Ints, there: Ints) -> Ints:
-    """Number regions anew, (r,): those that meet over a seam with one label are one."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
+    """Number regions again, (r,): those that meet over a seam with one label are one."""
     one = label[here] == label[there]
-    graph = coo_matrix((np.ones(one.sum(), np.int8), (here[one], there[one])), shape=(len(label), len(label)))
-    number: Ints = connected_components(graph, directed=False)[1].astype(np.int64)
-    return number
+    return connected(len(label), here[one], there[one])[1]
 
 
 def _clipped(polygon: Any, shapes: Any) -> tuple[Any, Ints]:

@@ -1,11 +1,15 @@
-"""Borders, in order."""
+"""Borders, in order; and how to walk from one thing to the next."""
+
+from typing import TypeVar
 
 import numpy as np
 
-from meshjig.mesh.arrays import Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 
-__all__ = ["border_loop", "border_loops", "closed_loops", "longest_loop"]
+__all__ = ["border_loop", "border_loops", "closed_loops", "follow", "longest_loop", "summed_along"]
+
+Numbers = TypeVar("Numbers", Ints, Floats)
 
 
 def border_loop(F: Ints) -> Ints:
@@ -70,3 +74,31 @@ def closed_loops(start: Ints, end: Ints) -> list[Ints]:
         if loop:
             loops.append(np.array(loop, np.int64))
     return loops
+
+
+def follow(after: Ints | list[int], first: int, seen: set[int]) -> list[int]:
+    """Walk from one thing to what comes after it, until the end (-1) or what was seen; all are seen then."""
+    walk, at = [], first
+    while at >= 0 and at not in seen:
+        seen.add(at)
+        walk.append(at)
+        at = int(after[at])
+    return walk
+
+
+def summed_along(after: Ints, values: Numbers) -> tuple[Numbers, Ints]:
+    """Add up values (k,) from each thing to the last that comes after it, all chains at once.
+
+    Parameters
+    ----------
+    after : (k,) int64, what comes after each thing; itself at the end of a chain, nothing in a ring
+    values : (k,), 0 at the ends
+
+    Returns
+    -------
+    total : (k,)
+    last : (k,) int64
+    """
+    while (after[after] != after).any():  # twice as far each time
+        values, after = values + values[after], after[after]
+    return values, after

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
-__all__ = ["self_crossings"]
+__all__ = ["crossing_faces", "self_crossings"]
 
 
 def self_crossings(V: Floats, F: Ints) -> Ints | None:
@@ -36,10 +36,18 @@ def self_crossings(V: Floats, F: Ints) -> Ints | None:
     if F.min() < 0 or F.max() >= len(V) or not np.isfinite(V[F]).all():
         return None  # native code would read beyond the array
     try:
-        from igl.copyleft.cgal import remesh_self_intersections
-
-        found = remesh_self_intersections(V, F, detect_only=True)[2]
+        found = crossing_faces(V, F)
     except (ImportError, RuntimeError, ValueError):
         return None
-    pairs = np.sort(np.asarray(found, np.int64).reshape(-1, 2), axis=1)
-    return np.unique(pairs, axis=0)
+    return np.unique(np.sort(found, axis=1), axis=0)
+
+
+def crossing_faces(V: Floats, F: Ints) -> Ints:
+    """List the pairs of faces that cross, (k, 2), as CGAL finds them: in no order, and without any check.
+
+    Faces need an area, indices have to be in range, and coordinates finite.
+    """
+    from igl.copyleft.cgal import remesh_self_intersections
+
+    found = remesh_self_intersections(V, F, detect_only=True)[2]
+    return np.asarray(found, np.int64).reshape(-1, 2)

@@ -19,10 +19,10 @@ class RayScene:
     V : (n, 3) float64
     F : (m, 3) int64
     robust : bool
-        Whether no ray slips through between two triangles; slower.
+        Whether no ray slips through between two triangles; a little slower than otherwise.
     """
 
-    def __init__(self, V: Floats, F: Ints, robust: bool = False) -> None:
+    def __init__(self, V: Floats, F: Ints, robust: bool = True) -> None:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 

@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Ints, connected
+from meshjig.mesh.boundary_loops import summed_along
 from meshjig.mesh.halfedges import edges, next_halfedge
-from meshjig.mesh.types import Ints
 
 __all__ = ["Chains", "border_chains"]
 
@@ -68,18 +69,12 @@ def _edge_before(tail: Ints, head: Ints, pair: Ints) -> Ints:
 
 def _ranked(before: Ints) -> tuple[Ints, Ints]:
     """Give each edge the first edge of its line and its place in it; rings start at their least edge."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     n = len(before)
     linked = np.flatnonzero(before >= 0)
-    graph = coo_matrix((np.ones(len(linked), np.int8), (linked, before[linked])), shape=(n, n))
-    _, line = connected_components(graph, directed=False)
+    line = connected(n, linked, before[linked])[1]
     rooted = np.bincount(line, before < 0) > 0
     least = np.unique(line, return_index=True)[1]
     step = np.where(before < 0, np.arange(n), before)
     step[least[~rooted]] = least[~rooted]
-    rank = (step != np.arange(n)).astype(np.int64)
-    while (step[step] != step).any():  # twice as far each time
-        rank, step = rank + rank[step], step[step]
-    return step, rank
+    rank, first = summed_along(step, (step != np.arange(n)).astype(np.int64))
+    return first, rank

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.intersections import crossing_faces
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -28,15 +29,12 @@ def crossing_pairs(V: Floats, F: Ints) -> tuple[Ints, Floats]:
     pairs : (k, 2) int64
     depth : (k,) float64, mm: how far one triangle reaches beyond the other's plane, the smaller of the two
     """
-    import igl.copyleft.cgal as cgal
-
     none = np.empty((0, 2), np.int64), np.empty(0)
     if not len(F):
         return none
-    pairs = cgal.remesh_self_intersections(V, F, detect_only=True)[2]
+    pairs = crossing_faces(V, F)
     if not len(pairs):
         return none
-    pairs = np.asarray(pairs, np.int64)
     a, b = pairs.T
     return pairs, np.minimum(_reach(V, F[a], F[b]), _reach(V, F[b], F[a]))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.mesh.measure import area_vectors, face_areas
+from meshjig.mesh.rays import RayScene
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["inward_room", "thin_share"]
@@ -36,21 +37,16 @@ def inward_room(V: Floats, F: Ints, d: Floats, enough: float = np.inf) -> Floats
     Rays start a little below the surface, and a hit is measured in the hit face's plane in float64, since
     Embree works in float32.
     """
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
-
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, V[F].astype(np.float32))
+    scene = RayScene(V, F)
     N = area_vectors(V, F)
     N /= np.maximum(np.linalg.norm(N, axis=1), 1e-300)[:, None]
     origin = V - 1e-3 * d
-    start = origin.astype(np.float32)
     side, across = _frame(d)
     depth = np.full(len(V), np.inf)
     for angle, around in [(0.0, 0.0), *((_TILT, k * np.pi / 2) for k in range(4))]:
         ray = -np.cos(angle) * d + np.sin(angle) * (np.cos(around) * side + np.sin(around) * across)
         far = min(enough / _SHARE / np.cos(angle), _FAR) if angle else _FAR
-        face = scene.run(start, ray.astype(np.float32), np.full(len(V), far, np.float32))
+        face = scene.first_face(origin, ray, np.full(len(V), far))
         hit = np.flatnonzero(face >= 0)
         n = N[face[hit]]
         facing = np.einsum("ij,ij->i", ray[hit], n)

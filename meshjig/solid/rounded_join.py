@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.mesh.measure import mesh_volume
+from meshjig.mesh.rays import RayScene
 from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.surface_distance import SurfaceDistance
 
@@ -66,21 +67,14 @@ def _offset_surface(V: Floats, F: Ints, thickness: float) -> tuple[Floats, Ints,
 
 def _carried(V: Floats, D: Floats, thickness: float, S: Floats, G: Ints) -> tuple[Floats, Any]:
     """Follow D to the offset surface; take its nearest point where D misses it."""
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
-
     target, found = V + D, np.zeros(len(V), bool)
     if not len(G):
         return target, found
     length = np.linalg.norm(D, axis=1)
     way = D / np.maximum(length, 1e-300)[:, None]
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, S[G].astype(np.float32))
     start = np.maximum(length - _REACH * thickness, 0.0)
     origin = V + start[:, None] * way
-    hit = np.asarray(
-        scene.run(origin.astype(np.float32), way.astype(np.float32), query="DISTANCE"), np.float64
-    )
+    hit = RayScene(S, G).first_distance(origin, way)
     along = hit < length - start + _REACH * thickness
     target[along] = origin[along] + hit[along, None] * way[along]
     found |= along

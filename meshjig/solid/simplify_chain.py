@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints, ragged, starts
 from meshjig.solid.wall_edges import bent
 
 __all__ = ["simplified"]
@@ -46,8 +46,7 @@ def simplified(X: Floats, Y: Floats, start: Ints, tolerance: float, bend: float)
         if not len(low):
             return keep
         count = high - low - 1
-        at = np.cumsum(count) - count
-        inner = np.arange(count.sum()) - np.repeat(at - low - 1, count)
+        at, inner = starts(count), ragged(low + 1, count)
         i, j = np.repeat(low, count), np.repeat(high, count)
         off = np.maximum(_distances(X[inner], X[i], X[j]), _distances(Y[inner], Y[i], Y[j]))
         worst = np.maximum.reduceat(off, at)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.boundary_loops import follow
 from meshjig.mesh.measure import unit
 from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.solid.offsets import Offsets, Strip
@@ -45,12 +46,10 @@ def _runs(offsets: Offsets) -> list[tuple[Ints, bool]]:
     for s in [*np.flatnonzero(~follows).tolist(), *range(len(after))]:
         if taken[s]:
             continue
-        run = [s]
-        while (s := following[s]) >= 0 and s != run[0]:
-            run.append(s)
+        run = follow(following, s, set())
         for q in run:
             taken[q] = True
-        runs.append((np.array(run), s >= 0))
+        runs.append((np.array(run), following[run[-1]] >= 0))
     return runs
 
 

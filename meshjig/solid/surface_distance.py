@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints, ragged, row_of, starts
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["SurfaceDistance"]
 
@@ -77,11 +77,9 @@ class SurfaceDistance:
         nearest_corner = inside[rim].argmax(1)
         v = self._F[face[rim], nearest_corner]
         count = start[v + 1] - start[v]
-        owner = np.repeat(np.arange(len(rim)), count)
-        first = np.cumsum(count) - count
-        around = self._corner_face[np.arange(count.sum()) - np.repeat(first - start[v], count)]
+        owner, around = row_of(count), self._corner_face[ragged(start[v], count)]
         edge = inside[rim].sum(1) == 2
         other = self._F[face[rim], 2 - inside[rim][:, ::-1].argmax(1)]
         shares = (self._F[around] == other[owner][:, None]).any(1) | ~edge[owner]
         height = np.einsum("ij,ij->i", self._V[v[owner]] - points[rim[owner]], self._normal[around])
-        return np.maximum.reduceat(np.where(shares, height, -np.inf), first)
+        return np.maximum.reduceat(np.where(shares, height, -np.inf), starts(count))

@@ -1,6 +1,6 @@
 import numpy as np
 
-from meshjig.mesh.boundary_loops import border_loop, border_loops, closed_loops
+from meshjig.mesh.boundary_loops import border_loop, border_loops, closed_loops, follow, summed_along
 from tests.meshes import cylinder, disc, sphere
 
 
@@ -30,3 +30,17 @@ def test_loops_that_meet_in_a_vertex_are_followed_to_their_ends():
     assert sorted(np.concatenate(loops).tolist()) == list(range(6))
     for loop in loops:
         np.testing.assert_array_equal(end[loop], np.roll(start[loop], -1))
+
+
+def test_a_walk_ends_at_the_end_at_its_beginning_or_at_what_was_met_before():
+    after = [1, 2, -1, 4, 3, 0]
+    seen = set()
+    assert [follow(after, k, seen) for k in (0, 4, 5)] == [[0, 1, 2], [4, 3], [5]]
+    assert follow(after, 1, seen) == []
+
+
+def test_values_are_summed_to_the_end_of_each_chain():
+    after, values = np.array([1, 2, 2, 0, 5, 5]), np.array([3.0, 4.0, 0.0, 1.5, 2.0, 0.0])
+    total, last = summed_along(after, values)
+    assert total.tolist() == [7.0, 4.0, 0.0, 8.5, 2.0, 0.0]
+    assert last.tolist() == [2, 2, 2, 2, 5, 5]

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import ranks, row_of
 from meshjig.mesh.halfedges import Edges
 from meshjig.mesh.measure import vertex_normals
 from meshjig.mesh.types import Bools, Floats, Ints
@@ -50,8 +51,8 @@ def rim_of(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Rim:
 
     a, b = e.E[np.unique(e.edge_of_halfedge[_on_border(e, piece)])].T
     n = np.ceil(np.linalg.norm(V[a] - V[b], axis=1) / (FINE * width)).astype(np.int64) + 1
-    row = np.repeat(np.arange(len(n)), n)
-    t = (np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)) / np.maximum(n[row] - 1, 1)
+    row = row_of(n)
+    t = ranks(n) / np.maximum(n[row] - 1, 1)
     N = vertex_normals(V, F)
     points, normals = (between(X, np.stack([a[row], b[row]], 1), t) for X in (V, N))
     return Rim(N, cKDTree(points), normals, SEEN * width)

@@ -1,9 +1,9 @@
 """Which pieces could be narrow somewhere: a quick look along their borders."""
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.mesh.arrays import connected, ranks, row_of
+from meshjig.mesh.boundary_loops import summed_along
 from meshjig.mesh.halfedges import Edges, next_halfedge
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Bools, Floats, Ints
@@ -48,8 +48,8 @@ def could_be_narrow(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> 
     step = _STEP * width
     first = np.ceil(at / step)
     count = (np.ceil((at + length) / step) - first).astype(np.int64)
-    row = np.repeat(np.arange(len(rim)), count)
-    place = (first[row] + np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)) * step
+    row = row_of(count)
+    place = (first[row] + ranks(count)) * step
     share = ((place - at[row]) / np.maximum(length[row], 1e-300))[:, None]
     points = V[start[row]] + share * (V[end[row]] - V[start[row]])
     points[:, 0] += of[row] * (2 * np.ptp(V[:, 0]) + 2 * _NEAR * width)  # every piece by itself
@@ -77,13 +77,9 @@ def _places(following: Ints, length: Floats) -> tuple[Ints, Floats, Floats]:
     around : (l,) float64, mm, the length of each loop
     """
     k, row = len(length), np.arange(len(length))
-    graph = coo_matrix((np.ones(k, np.int8), (row, following)), shape=(k, k))
-    n, label = connected_components(graph, directed=False)
-    loop = label.astype(np.int64)
+    n, loop = connected(k, row, following)
     around = sums(loop, length, n)
     begin = np.unique(loop, return_index=True)[1]
     last = np.isin(following, begin)
-    after, left = np.where(last, row, following), np.where(last, 0.0, length)
-    for _ in range(k.bit_length()):  # twice as far each time
-        left, after = left + left[after], after[after]
+    left, after = summed_along(np.where(last, row, following), np.where(last, 0.0, length))
     return loop, around[loop] - left - length[after], around

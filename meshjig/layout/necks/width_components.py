@@ -4,9 +4,10 @@ from itertools import product
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse.csgraph import dijkstra
 
 from meshjig.layout.necks.border_distance import ALONG, Rim, between, distances_along, rim_of
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.halfedges import compact, edges
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -51,9 +52,9 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     row = np.full(len(e.twin), -1)
     row[inner] = row[e.twin[inner]] = np.arange(len(inner))
     sides = row.reshape(-1, 3)
-    label = _components(n + len(V), pairs)
+    label = connected(n + len(V), *pairs.T)[1]
     pairs = np.concatenate([pairs, _through_faces(V, sides, ends, stretch, label, rim, width)])
-    core = _of_widest_side(sides, far, stretch, _components(n + len(V), pairs))
+    core = _of_widest_side(sides, far, stretch, connected(n + len(V), *pairs.T)[1])
     return _filled(V, F, np.stack([inner // 3, e.twin[inner] // 3], 1), core)
 
 
@@ -139,10 +140,5 @@ def _filled(V: Floats, F: Ints, beside: Ints, core: Ints) -> Ints:
         part[reached] = core[source[reached]]
     left = part < 0
     thin = beside[left[beside].all(1)]
-    part[left] = int(core.max(initial=-1)) + 1 + _components(m, thin)[left]
+    part[left] = int(core.max(initial=-1)) + 1 + connected(m, *thin.T)[1][left]
     return np.unique(part, return_inverse=True)[1].astype(np.int64)
-
-
-def _components(n: int, pairs: Ints) -> Ints:
-    graph = coo_matrix((np.ones(len(pairs), np.int8), tuple(pairs.T)), shape=(n, n))
-    return connected_components(graph, directed=False)[1].astype(np.int64)

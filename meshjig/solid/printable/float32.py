@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from meshjig.errors import OutputError
+from meshjig.mesh.arrays import Floats, Ints, row_of, starts
 from meshjig.mesh.halfedges import compact
-from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.printable.needles import low_faces, without_needles
 from meshjig.solid.printable.short_edges import without_degenerate, without_short_edges
 
@@ -48,7 +48,7 @@ def all_printable(solids: Sequence[tuple[Floats, Ints]]) -> list[tuple[Floats, I
     if not all(np.isfinite(V).all() for V, _ in solids):
         raise OutputError("a piece has points that are not finite", hint="please report this model")
     sizes = np.array([len(V) for V, _ in solids], np.int64)
-    of, first = np.repeat(np.arange(len(sizes)), sizes), np.cumsum(sizes) - sizes
+    of, first = row_of(sizes), starts(sizes)
     none_V, none_F = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
     V = _rounded(np.concatenate([none_V, *(V for V, _ in solids)]))
     F = without_degenerate(
@@ -67,14 +67,11 @@ def all_printable(solids: Sequence[tuple[Floats, Ints]]) -> list[tuple[Floats, I
 
 def _parted(V: Floats, F: Ints, of: Ints, n: int) -> list[tuple[Floats, Ints]]:
     """Take n solids apart, by what each vertex is of, and points that coincide in one of them as well."""
-    (first_V, end_V), (first_F, end_F) = (
-        (np.cumsum(count) - count, np.cumsum(count))
-        for count in (np.bincount(of, minlength=n), np.bincount(of[F[:, 0]], minlength=n))
-    )
+    of_V, of_F = (np.append(0, np.cumsum(np.bincount(x, minlength=n))) for x in (of, of[F[:, 0]]))
     twice = set(of[_with_a_twin(V, of)].tolist())
     made = []
     for k in range(n):
-        W, G = V[first_V[k] : end_V[k]], F[first_F[k] : end_F[k]] - first_V[k]
+        W, G = V[slice(*of_V[k : k + 2])], F[slice(*of_F[k : k + 2])] - of_V[k]
         made.append((_moved_apart(W, G) if k in twice else W, G))
     return made
 

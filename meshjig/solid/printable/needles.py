@@ -1,15 +1,12 @@
 """Triangles that are all but lines: their planes mean nothing, and rounding turns them over."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.incident_faces import around
 
 __all__ = ["low_faces", "without_needles"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _ROUNDS = 12
 _BLOCK = 8192  # faces: what is worked on stays in the cache
