@@ -1,12 +1,10 @@
 """Every promise as a predicate on finished pieces, independent of how they were made."""
 
-from meshjig.check.affected import touched_pieces
 from meshjig.check.areas import area_cv, area_error
 from meshjig.check.closed import as_stl, is_closed, is_closed_as_stl, is_one_component, volume
 from meshjig.check.core import add_failures, judge_core
 from meshjig.check.gap import Gap, gaps
 from meshjig.check.judge import Verdict, judge
-from meshjig.check.outer_gap import outer_gap
 from meshjig.check.overlap import Overlaps, overlaps
 from meshjig.check.self_intersection import crossing_depth, self_intersections
 from meshjig.check.thickness import Thickness, measure_thickness
@@ -28,9 +26,7 @@ __all__ = [
     "judge",
     "judge_core",
     "measure_thickness",
-    "outer_gap",
     "overlaps",
     "self_intersections",
-    "touched_pieces",
     "volume",
 ]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
 __all__ = ["area_cv", "area_error"]
 

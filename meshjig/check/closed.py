@@ -1,15 +1,15 @@
 """Whether a piece is the boundary of one solid: closed, oriented, in one part, the right way out.
 
 All of it is decided on the faces' corners, exactly. Nothing here tells whether the surface passes
-through itself: see crossings.py.
+through itself: see self_intersection.py.
 """
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import components, fans
 from meshjig.mesh.measure import mesh_volume
-from meshjig.mesh.types import Floats, Ints
-from meshjig.mesh.validated import Piece, weld
+from meshjig.mesh.validated import weld
 
 __all__ = ["as_stl", "is_closed", "is_closed_as_stl", "is_one_component", "volume"]
 
@@ -41,7 +41,7 @@ def is_closed(F: Ints) -> bool:
     return len(fans(F)[1]) == len(np.unique(tail))
 
 
-def as_stl(V: Floats, F: Ints) -> Piece:
+def as_stl(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     """Give a piece as it comes back from an STL: float32 coordinates, equal vertices merged.
 
     STL keeps no indices: vertices that round to one place become one vertex, for every reader. A
@@ -75,7 +75,7 @@ def is_closed_as_stl(V: Floats, F: Ints) -> bool:
 
 
 def is_one_component(F: Ints) -> bool:
-    """Prove that faces hang together over shared edges, all of them."""
+    """Prove that faces are connected over shared edges, all of them."""
     return components(F)[0] == 1
 
 

@@ -10,8 +10,7 @@ import numpy as np
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
 from meshjig.check.judge import GAP_SHARE, OVERLAP_MM3
 from meshjig.check.self_intersection import self_intersections
-from meshjig.check.solids import bodies
-from meshjig.mesh.validated import boxes, close_boxes, sound_piece
+from meshjig.mesh.pieces import Pieces
 
 __all__ = ["add_failures", "judge_core"]
 
@@ -49,8 +48,8 @@ def judge_core(
     InputError
         Arrays that are no mesh with finite coordinates.
     """
-    names = [str(name) for name, _, _ in (*core, *pieces)]
-    meshes = [sound_piece(V, F, str(name)) for name, V, F in (*core, *pieces)]
+    both = Pieces.of([*core, *pieces])
+    names = both.names
     failures: dict[str, list[str]] = {}
 
     def hold(promise: str, broken: Iterable[tuple[int, ...]]) -> None:
@@ -59,15 +58,15 @@ def judge_core(
             failures[promise] = [names[i] for i in sorted(found)]
 
     own = range(len(core))
-    crossings = [len(self_intersections(*meshes[i])) for i in own]
-    hold("closed", [(i,) for i in own if not is_closed_as_stl(*meshes[i])])
-    hold("one_component", [(i,) for i in own if not is_one_component(meshes[i][1])])
-    hold("positive_volume", [(i,) for i in own if volume(*meshes[i]) <= 0])
+    crossings = [len(self_intersections(*both[i])) for i in own]
+    hold("closed", [(i,) for i in own if not is_closed_as_stl(*both[i])])
+    hold("one_component", [(i,) for i in own if not is_one_component(both[i].F)])
+    hold("positive_volume", [(i,) for i in own if volume(*both[i]) <= 0])
     hold("self_intersections", [(i,) for i in own if crossings[i]])
 
     reach = max(1.0, 3 * (clearance or 0.0))
-    solid, spared = bodies(meshes), set(exempt_pieces)
-    pairs = close_boxes(*boxes(meshes), reach)
+    solid, spared = both.bodies, set(exempt_pieces)
+    pairs = both.close(reach)
     shared, least = {}, {}
     for i, j in pairs[(pairs[:, 0] < len(core)) & (pairs[:, 1] >= len(core))].tolist():
         if solid[i] is None or solid[j] is None or names[j] in spared:

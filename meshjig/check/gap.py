@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.check.solids import Body, bodies
-from meshjig.mesh.sampling import Soup, area_samples, smooth_regions, soup
-from meshjig.mesh.types import Bools, Floats, Ints
-from meshjig.mesh.validated import Piece, boxes, close_boxes
+from meshjig.check.soup import Soup, area_samples, smooth_regions, soup
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.pieces import Pieces
 
-__all__ = ["Gap", "default_reach", "gap_between_bodies", "gaps"]
+__all__ = ["Gap", "default_reach", "gap_between", "gaps"]
 
 _FACING = -0.8  # cosine between two walls' normals: they face each other
 _SAMPLES_A_PIECE = 1500
@@ -73,7 +73,7 @@ def default_reach(clearance: float | None) -> float:
     return 3 * clearance if clearance else 1.0
 
 
-def gaps(pieces: Sequence[Piece], *, neighbours: Ints | None = None, clearance: float | None = None) -> Gap:
+def gaps(pieces: Iterable[Any], *, neighbours: Any = None, clearance: float | None = None) -> Gap:
     """Measure the gap between neighbouring pieces.
 
     Two things are measured: for every pair of neighbours its least distance, by manifold3d; and over
@@ -95,27 +95,17 @@ def gaps(pieces: Sequence[Piece], *, neighbours: Ints | None = None, clearance: 
     -------
     Gap
     """
-    reach = default_reach(clearance)
-    if neighbours is None:
-        pairs = close_boxes(*boxes(pieces), reach)
-        return gap_between_bodies(pieces, bodies(pieces), pairs, reach, found=True)
-    return gap_between_bodies(pieces, bodies(pieces), neighbours, max(reach, 1.0), found=False)
+    return gap_between(Pieces.of(pieces, neighbours), clearance)
 
 
-def gap_between_bodies(
-    pieces: Sequence[Piece], bodies: Sequence[Body], pairs: Ints, reach: float, *, found: bool
-) -> Gap:
-    """Measure the gap as gaps() does, of pieces whose bodies are known.
-
-    Parameters
-    ----------
-    pieces, bodies : the same pieces, as arrays and for manifold3d
-    pairs : (k, 2) int64
-    reach : float, mm
-    found : bool, the pairs are guesses: those farther apart than the reach are no neighbours
-    """
-    pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
-    walls, between, face, at, bounds = _wall_distances(pieces, pairs, reach)
+def gap_between(pieces: Pieces, clearance: float | None) -> Gap:
+    """Measure the gap as gaps() does."""
+    reach, found = default_reach(clearance), pieces.neighbours is None
+    pairs = pieces.close(reach) if pieces.neighbours is None else pieces.neighbours
+    reach = reach if found else max(reach, 1.0)
+    bodies = pieces.bodies
+    walls = _wall_distances(pieces, pairs, reach)
+    bounds = walls.bounds
     measured: list[tuple[int, int, float | None]] = []
     for i, j in pairs.tolist():
         if bodies[i] is None or bodies[j] is None:
@@ -126,23 +116,26 @@ def gap_between_bodies(
         distance = float(bodies[i].min_gap(bodies[j], bound))
         if not found or distance < reach:
             measured.append((i, j, min(distance, reach)))
-    return Gap(measured, walls, between, face, at)
+    return Gap(measured, *walls[:4])
 
 
-def _wall_distances(
-    pieces: Sequence[Piece], pairs: Ints, reach: float
-) -> tuple[Floats, Ints, Ints, Floats, dict[tuple[int, int], float]]:
-    """Give the distance from points all over the walls to the nearest neighbour, (k,), mm.
+class _Walls(NamedTuple):
+    """The distance from points all over the walls to the nearest neighbour."""
 
-    Also give the two pieces of each, (k, 2), its face, (k,), and place, (k, 3); and the least distance met
-    between two pieces, on walls or elsewhere.
-    """
+    gap: Floats  # (k,), mm
+    pair: Ints  # (k, 2), the pieces on both sides
+    face: Ints  # (k,)
+    at: Floats  # (k, 3), mm
+    bounds: dict[tuple[int, int], float]  # the least distance met between two pieces, on walls or elsewhere
+
+
+def _wall_distances(pieces: Pieces, pairs: Ints, reach: float) -> _Walls:
     s = soup(pieces)
     P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
     gap, opposite, facing = np.full(len(P), np.inf), np.full(len(P), -1), np.zeros(len(P), bool)
     bounds = {}
     low, high = s.V[s.F].min(1), s.V[s.F].max(1)
-    box_low, box_high = boxes(pieces)
+    box_low, box_high = pieces.boxes
     of_piece = np.searchsorted(face, s.start)
     both = np.concatenate([pairs, pairs[:, ::-1]])
     for i in np.unique(both):
@@ -161,7 +154,7 @@ def _wall_distances(
             bounds[int(i), int(j)] = float(distance.min(where=opposite[own] == j, initial=np.inf))
     wall = facing & _of_walls(smooth_regions(s)[face], facing)
     ends = np.stack([s.piece[face[wall]], opposite[wall]], 1)
-    return gap[wall], np.sort(ends, axis=1), face[wall], P[wall], bounds
+    return _Walls(gap[wall], np.sort(ends, axis=1), face[wall], P[wall], bounds)
 
 
 def _of_walls(region: Ints, facing: Bools) -> Bools:

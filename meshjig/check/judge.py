@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
-from meshjig.check.gap import Gap, default_reach, gap_between_bodies
-from meshjig.check.overlap import overlaps_of_bodies
+from meshjig.check.gap import Gap, gap_between
+from meshjig.check.overlap import overlaps_between
 from meshjig.check.self_intersection import self_intersections
-from meshjig.check.sheets import without_sheets
-from meshjig.check.solids import bodies
-from meshjig.check.thickness import Thickness, measure_thickness
+from meshjig.check.thickness import Thickness, measure_thickness, without_sheets
 from meshjig.errors import InputError
-from meshjig.mesh.validated import Piece, boxes, close_boxes, sound_piece
+from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.pieces import Pieces
 from meshjig.runtime.worker import Background
 
 __all__ = ["Verdict", "judge"]
@@ -48,7 +47,7 @@ class Verdict:
 
 
 def judge(
-    pieces: Iterable[Sequence[Any]],
+    pieces: Iterable[Any],
     *,
     neighbours: Sequence[Sequence[int]] | None = None,
     thickness: float | None = None,
@@ -74,7 +73,7 @@ def judge(
 
     Parameters
     ----------
-    pieces : list of (name, V, F) or (V, F)
+    pieces : Pieces, or list of (name, V, F) or (V, F)
         V (n, 3), mm; F (m, 3). Without a name a piece is called piece_001 and so on.
     neighbours : (k, 2) indices of pieces that share a border, optional
         Without it, pieces that lie close to each other are neighbours.
@@ -95,8 +94,10 @@ def judge(
     InputError
         No pieces, or arrays that are no mesh with finite coordinates; or neighbours that don't exist.
     """
-    names, meshes = _named(pieces)
-    pairs = _neighbour_pairs(neighbours, len(meshes))
+    pieces = Pieces.of(pieces, neighbours)
+    if not len(pieces):
+        raise InputError("there are no pieces to judge")
+    names = pieces.names
     spared = {i for i, name in enumerate(names) if name in set(exempt_pieces)}
     failures: dict[str, list[str]] = {}
     exempt: dict[str, list[str]] = {}
@@ -114,14 +115,12 @@ def judge(
             if found:
                 blamed[promise] = [names[i] for i in sorted(found)]
 
-    small = sum(len(F) for _, F in meshes) < WORTH_A_CHILD
-    beside = Background(_each_alone, meshes, alone=small)
+    small = sum(len(F) for _, F in pieces) < WORTH_A_CHILD
+    beside = Background(_each_alone, list(pieces), alone=small)
     try:
-        solids = bodies(meshes)
-        low, high = boxes(meshes)
-        gap = _gap(meshes, solids, pairs, clearance, close_boxes(low, high, default_reach(clearance)))
+        gap = gap_between(pieces, clearance)
         apart = {(min(i, j), max(i, j)) for i, j, least in gap.pairs if least}
-        shared = overlaps_of_bodies(solids, close_boxes(low, high, 0.0).tolist(), apart)
+        shared = overlaps_between(pieces, pieces.close(0.0).tolist(), apart)
         unsound, crossings, sheets = beside.result()
     except BaseException:
         beside.cancel()
@@ -134,13 +133,13 @@ def judge(
     if clearance:
         narrow = GAP_SHARE * clearance
         hold("gap_mm", [(i, j) for i, j, least in gap.pairs if least is not None and least < narrow])
-        wide = _wide(gap, clearance) if pairs is not None else []
+        wide = _wide(gap, clearance) if pieces.neighbours is not None else []
         if wide and thickness:
-            wide = _wide(without_sheets(gap, meshes, wide, THICKNESS_SHARE[1] * thickness), clearance)
+            wide = _wide(without_sheets(gap, pieces, wide, THICKNESS_SHARE[1] * thickness), clearance)
         hold("gap_wide_mm", wide)
     facts = sheets.facts(thickness)
     if thickness and not _within(facts["median"], thickness):
-        hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(meshes))])
+        hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(pieces))])
     thin = sheets.thin(min_wall) if min_wall else []
 
     checks = {
@@ -168,42 +167,15 @@ def judge(
     return Verdict(checks, failures, exempt, named, near)
 
 
-def _each_alone(meshes: list[Piece]) -> tuple[dict[str, list[int]], list[int], Thickness]:
+def _each_alone(meshes: list[Mesh]) -> tuple[dict[str, list[int]], list[int], Thickness]:
     """List the pieces that are no sound solids, count the crossings of each, and measure their thickness."""
     every = range(len(meshes))
     unsound = {
         "closed": [i for i in every if not is_closed_as_stl(*meshes[i])],
-        "one_component": [i for i in every if not is_one_component(meshes[i][1])],
+        "one_component": [i for i in every if not is_one_component(meshes[i].F)],
         "positive_volume": [i for i in every if volume(*meshes[i]) <= 0],
     }
     return unsound, [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
-
-
-def _named(pieces: Iterable[Sequence[Any]]) -> tuple[list[str], list[Piece]]:
-    names, meshes = [], []
-    for i, piece in enumerate(pieces):
-        *name, V, F = piece
-        names.append(str(name[0]) if name else f"piece_{i + 1:03d}")
-        meshes.append(sound_piece(V, F, names[-1]))
-    if not meshes:
-        raise InputError("there are no pieces to judge")
-    return names, meshes
-
-
-def _neighbour_pairs(neighbours: Sequence[Sequence[int]] | None, n: int) -> Any:
-    if neighbours is None:
-        return None
-    pairs = np.asarray(neighbours, np.int64).reshape(-1, 2)
-    if len(pairs) and (pairs.min() < 0 or pairs.max() >= n):
-        raise InputError(f"neighbours: a pair names a piece beyond the {n} that there are")
-    return pairs
-
-
-def _gap(meshes: list[Piece], solids: list[Any], pairs: Any, clearance: float | None, close: Any) -> Gap:
-    reach = default_reach(clearance)
-    if pairs is None:
-        return gap_between_bodies(meshes, solids, close, reach, found=True)
-    return gap_between_bodies(meshes, solids, pairs, max(reach, 1.0), found=False)
 
 
 def _wide(gap: Gap, clearance: float) -> list[tuple[int, int]]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any, NamedTuple
 
-from meshjig.check.solids import Body, bodies
-from meshjig.mesh.validated import Piece, boxes, close_boxes
+from meshjig.mesh.pieces import Pieces
 
-__all__ = ["Overlaps", "overlaps", "overlaps_of_bodies"]
+__all__ = ["Overlaps", "overlaps", "overlaps_between"]
 
 
 class Overlaps(NamedTuple):
@@ -19,7 +18,7 @@ class Overlaps(NamedTuple):
     unmeasured: list[int]  # pieces that are no manifold and so have no inside
 
 
-def overlaps(pieces: Sequence[Piece]) -> Overlaps:
+def overlaps(pieces: Iterable[Any]) -> Overlaps:
     """Measure the space shared by every two pieces, neighbours or not.
 
     Two pieces whose boxes don't touch share nothing; for all others the volume of the intersection
@@ -35,27 +34,29 @@ def overlaps(pieces: Sequence[Piece]) -> Overlaps:
     Overlaps
         A piece that manifold3d refuses is listed as unmeasured, and makes the total None.
     """
-    low, high = boxes(pieces)
-    return overlaps_of_bodies(bodies(pieces), close_boxes(low, high, 0.0).tolist())
+    pieces = Pieces.of(pieces)
+    return overlaps_between(pieces, pieces.close(0.0).tolist())
 
 
-def overlaps_of_bodies(
-    bodies: Sequence[Body], pairs: Sequence[Sequence[int]], apart: Collection[tuple[int, int]] = ()
+def overlaps_between(
+    pieces: Pieces, pairs: Sequence[Sequence[int]], apart: Collection[tuple[int, int]] = ()
 ) -> Overlaps:
-    """Measure the space shared by named pairs of bodies, as overlaps() does.
+    """Measure the space shared by named pairs of pieces, as overlaps() does.
 
     Parameters
     ----------
-    bodies : as bodies() gives them
+    pieces : Pieces
     pairs : (k, 2) pieces, lower first
     apart : pairs, lower first, whose distance is known to be more than 0: they share nothing
     """
+    bodies = pieces.bodies
     unmeasured = [i for i, body in enumerate(bodies) if body is None]
     found = []
     for i, j in pairs:
-        if bodies[i] is None or bodies[j] is None or (i, j) in apart:
+        one, other = bodies[i], bodies[j]
+        if one is None or other is None or (i, j) in apart:
             continue
-        shared = float((bodies[i] ^ bodies[j]).volume())
+        shared = float((one ^ other).volume())
         if shared > 0:
             found.append((int(i), int(j), shared))
     total = None if unmeasured else sum(shared for _, _, shared in found)

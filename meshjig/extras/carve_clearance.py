@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["carved"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Depth"]
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, body
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["TOP", "groove"]
 

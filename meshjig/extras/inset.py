@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.extras.depth import Depth
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import mesh_volume
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["inset_surface"]
 

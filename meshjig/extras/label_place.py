@@ -7,11 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.arrays import ranks, row_of
+from meshjig.mesh.arrays import Bools, Floats, Ints, ranks, row_of
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Place", "places"]
 

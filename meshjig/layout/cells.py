@@ -9,11 +9,12 @@ import numpy as np
 from meshjig.cells import CellMesh, KnobLayout, cell_atlas, grow_cells, knob_outlines
 from meshjig.cut import overlay
 from meshjig.errors import CutError
+from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.layout import Layout
 from meshjig.layout.stitch import region_graph, stitch
-from meshjig.layout.unique import LEAST_DIFFERENCE, clashes
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Atlas, Floats, Mesh
+from meshjig.mesh.types import Atlas, Mesh
 from meshjig.options import Options
 from meshjig.runtime.progress import Stages
 

@@ -1,17 +1,23 @@
-"""Which borders and which pieces could be taken for one another, as rigid motions bring them together."""
+"""Which borders and pieces could be taken for one another, and which knobs to draw again for it."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.cut import fold
+from meshjig.layout.layout import Layout
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.boundary_loops import follow
-from meshjig.mesh.halfedges import edges, next_halfedge
-from meshjig.mesh.types import CutMesh, Floats, Ints
+from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
+from meshjig.mesh.types import CutMesh, Knobs
 
-__all__ = ["Border", "borders", "congruent_borders", "interchangeable"]
+__all__ = ["LEAST_DIFFERENCE", "Border", "borders", "clashes", "congruent_borders", "interchangeable"]
 
 _POINTS = 24  # on each curve; the knob of a border has several of them
 _BATCH = 20_000  # pairs of curves compared at once
+LEAST_DIFFERENCE = 0.1  # mm by which borders must differ where no clearance is asked for
 
 
 class Border(NamedTuple):
@@ -156,3 +162,41 @@ def _meet(a: Floats, b: Floats, tolerance: float) -> np.ndarray:
         U[..., -1] *= np.sign(np.linalg.det(U @ Wt))[:, None]  # a rotation, never a mirror
         met[part] = np.linalg.norm(x @ (U @ Wt) - y, axis=2).max(1) <= tolerance
     return met
+
+
+def clashes(layout: Layout, tolerance: float) -> tuple[Ints, dict[str, Any]]:
+    """Find borders that look alike.
+
+    Parameters
+    ----------
+    layout : Layout
+    tolerance : float, mm
+
+    Returns
+    -------
+    edges : (k,) int64, as Knobs.edge counts them: drawn anew, their borders would be unlike the rest
+    facts : {"congruent_borders": pairs, "interchangeable_pieces": pairs}
+    """
+    cut = fold(layout.cut, layout.outlines)
+    rims = borders(cut, layout.piece_of_face)
+    alike = congruent_borders(cut, rims, tolerance)
+    swaps = interchangeable(cut, rims, tolerance)
+    facts = {"congruent_borders": len(alike), "interchangeable_pieces": len(swaps)}
+    found = _edges_on([b for _, b in alike], cut, layout.knobs)
+    return found, facts
+
+
+def _edges_on(of: list[Border], cut: CutMesh, knobs: Knobs) -> Ints:
+    """List the edges of the tiling whose knobs lie on some borders."""
+    if not of or knobs.edge is None or not len(knobs.edge):
+        return np.zeros(0, np.int64)
+    n, corner = len(cut.V), cut.F.ravel()
+    h = np.concatenate([border.halfedges for border in of])
+    on_border = np.isin(
+        edge_keys(cut.cuts, n), edge_keys(np.stack([corner[h], corner[next_halfedge(h)]], 1), n)
+    )
+    segment = np.zeros(max(int(cut.cut_segment.max(initial=0)), int(knobs.span.max())) + 2, np.int64)
+    segment[cut.cut_segment[on_border]] = 1
+    before = np.concatenate([[0], np.cumsum(segment)])
+    found = np.unique(knobs.edge[before[knobs.span[:, 1]] > before[knobs.span[:, 0]]])
+    return found[found >= 0]

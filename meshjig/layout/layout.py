@@ -1,12 +1,18 @@
-"""What the pipeline knows of a surface once it is cut into pieces."""
+"""What the pipeline knows of a surface once it is cut into pieces; and some pieces cut once more."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from meshjig.cells import CellMesh
+from meshjig.cut import Further, cut_further
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import interpolate
-from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Knobs, Mesh, Outlines, Stitching
+from meshjig.mesh.types import Atlas, CutMesh, Knobs, Mesh, Outlines, Stitching
 
-__all__ = ["Layout", "Parts"]
+__all__ = ["Layout", "Parts", "affected_pieces", "recut"]
 
 
 @dataclass(frozen=True)
@@ -44,3 +50,52 @@ class Parts:
     cut: CutMesh
     piece_of_face: Ints  # (m,), negative in the gap
     discarded: float  # share of the area that the gap cut off from its piece
+
+
+def recut(
+    layout: Layout, chosen: Ints, kept: Ints, second: CutMesh, piece_of_label: Ints
+) -> tuple[Layout, Further]:
+    """Take a further cut of some faces into a layout.
+
+    Parameters
+    ----------
+    layout : Layout
+    chosen : (k,) int64, faces of its cut mesh
+    kept : (v,) int64, their vertices
+    second : CutMesh, of these faces
+    piece_of_label : (l,) int64, the piece that faces of the second cut belong to by their label
+
+    Returns
+    -------
+    Layout
+        Its knobs are those of the layout that was given.
+    Further
+        How the second cut was taken in.
+    """
+    further = cut_further(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
+    label = np.zeros(int(second.region.max(initial=-1)) + 1, np.int64)
+    label[second.region] = second.label
+    known = layout.stitching.piece_of_region[: int(layout.cut.region.max(initial=-1)) + 1]
+    stitching = replace(layout.stitching, piece_of_region=np.concatenate([known, piece_of_label[label]]))
+    return replace(layout, outlines=further.outlines, cut=further.cut, stitching=stitching), further
+
+
+def affected_pieces(pairs: Ints, parent: Ints, piece_of_face: Ints) -> set[int]:
+    """Give the pieces that hold a part of a face that crossed another before anything was cut.
+
+    A piece cannot be cleaner than the surface it is made of: where that passes through itself, so do the
+    pieces, or two of them share space.
+
+    Parameters
+    ----------
+    pairs : (k, 2) int64, faces of the uncut surface that cross
+    parent : (m,) int64, for each face of the cut surface, the uncut one that it is a part of
+    piece_of_face : (m,) int64, of the cut surface, negative where a face belongs to no piece
+
+    Returns
+    -------
+    set of int, pieces; proven for exactly these pairs: a face is touched when it is named in one of them
+    """
+    crossing = np.zeros(int(max(parent.max(initial=-1), pairs.max(initial=-1))) + 1, bool)
+    crossing[pairs] = True
+    return set(np.unique(piece_of_face[crossing[parent] & (piece_of_face >= 0)]).tolist())

@@ -10,13 +10,13 @@ import numpy as np
 from meshjig.cells import CellMesh, cell_atlas, knob_outlines
 from meshjig.cut import Further, fold, overlay
 from meshjig.layout.interlock import Interlock, interlock
-from meshjig.layout.layout import Layout
+from meshjig.layout.layout import Layout, recut
 from meshjig.layout.seam_smoothing import even_seams
-from meshjig.layout.second_cut import recut
 from meshjig.layout.stitch import region_graph
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import barycentric, face_areas, interpolate
-from meshjig.mesh.types import Bools, Floats, Ints, Knobs, Mesh
+from meshjig.mesh.types import Knobs, Mesh
 from meshjig.options import Options
 
 __all__ = ["knobs_over_seams"]

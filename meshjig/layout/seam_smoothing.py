@@ -9,10 +9,10 @@ import numpy as np
 from meshjig.cells.discs import DISC, shapes
 from meshjig.cells.even_borders import Evened, Line, even_borders
 from meshjig.layout.congruent import borders
-from meshjig.layout.layout import Layout
-from meshjig.layout.second_cut import recut
+from meshjig.layout.layout import Layout, recut
+from meshjig.mesh.arrays import Bools, Ints
 from meshjig.mesh.halfedges import Edges, compact, edge_keys, edges, next_halfedge
-from meshjig.mesh.types import Bools, CutMesh, Ints
+from meshjig.mesh.types import CutMesh
 
 __all__ = ["even_seams"]
 

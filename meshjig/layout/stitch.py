@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.measure import face_areas, sums
-from meshjig.mesh.types import Bools, CutMesh, Floats, Ints, RegionGraph, Stitching
+from meshjig.mesh.types import CutMesh, RegionGraph, Stitching
 
 __all__ = ["region_graph", "stitch"]
 

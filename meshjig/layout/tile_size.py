@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from meshjig.layout.stitch import stitch, sum_borders
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Floats, Ints, connected
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.measure import unit as unit_length
-from meshjig.mesh.types import Atlas, Floats, Ints, RegionGraph
+from meshjig.mesh.types import Atlas, RegionGraph
 from meshjig.tiling import (
     Fit,
     Placing,

@@ -8,14 +8,15 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from meshjig.cut import overlay
+from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.layout import Layout
 from meshjig.layout.necks.divide import divide_at_isthmuses
 from meshjig.layout.seam_knobs import knobs_over_seams
 from meshjig.layout.stitch import region_graph, stitch
 from meshjig.layout.tile_size import TileChoice, choose_tiles
-from meshjig.layout.unique import LEAST_DIFFERENCE, clashes
+from meshjig.mesh.arrays import Ints
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Atlas, Ints
+from meshjig.mesh.types import Atlas
 from meshjig.options import Options
 from meshjig.runtime.progress import Stages
 from meshjig.tiling import TileStyle, Unit, tile_surface

@@ -1,21 +1,18 @@
-"""What a piece is to the checks: two plain arrays that can be trusted by native code."""
+"""Plain arrays that can be trusted by native code."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
-__all__ = ["Piece", "boxes", "close_boxes", "sound_piece", "weld"]
-
-Piece = tuple[Floats, Ints]  # V (n, 3), mm; F (m, 3)
+__all__ = ["validated", "weld"]
 
 
-def sound_piece(V: Any, F: Any, name: str = "a piece") -> Piece:
+def validated(V: Any, F: Any, name: str = "a piece") -> tuple[Floats, Ints]:
     """Give a piece as float64 and int64 arrays, or say why it is none.
 
     Native code reads such arrays without looking: a stray index is a crash, and a coordinate that
@@ -51,7 +48,7 @@ def sound_piece(V: Any, F: Any, name: str = "a piece") -> Piece:
     return V, F
 
 
-def weld(V: Floats, F: Ints) -> Piece:
+def weld(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     """Merge vertices whose coordinates are equal, and drop faces that have lost a corner by it.
 
     This is what every reader of an STL does, and nothing looser: no tolerance.
@@ -71,29 +68,6 @@ def weld(V: Floats, F: Ints) -> Piece:
     G = group[F]
     whole = (G[:, 0] != G[:, 1]) & (G[:, 1] != G[:, 2]) & (G[:, 2] != G[:, 0])
     return V[first], G[whole]
-
-
-def boxes(pieces: Sequence[Piece]) -> tuple[Floats, Floats]:
-    """Give the lowest and highest corner of every piece's box, two (n, 3), mm."""
-    return (
-        np.array([V[F].min((0, 1)) for V, F in pieces]).reshape(-1, 3),
-        np.array([V[F].max((0, 1)) for V, F in pieces]).reshape(-1, 3),
-    )
-
-
-def close_boxes(low: Floats, high: Floats, reach: float) -> Ints:
-    """List pairs of boxes that are no farther than reach from each other along any axis.
-
-    Returns
-    -------
-    (k, 2) int64, lower first, in lexicographic order
-    """
-    pairs = [np.zeros((0, 2), np.int64)]
-    for i in range(len(low) - 1):
-        near = ((low[i + 1 :] - high[i] <= reach) & (low[i] - high[i + 1 :] <= reach)).all(1)
-        others = np.flatnonzero(near) + i + 1
-        pairs.append(np.stack([np.full(len(others), i), others], 1))
-    return np.concatenate(pairs)
 
 
 def _first_of_equal_rows(X: Floats) -> tuple[Ints, Ints]:

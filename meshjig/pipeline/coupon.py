@@ -16,7 +16,7 @@ from meshjig.output.folder import replace_folder
 from meshjig.output.pictures.colours import colours
 from meshjig.output.piece import Piece
 from meshjig.pipeline.report import meshjig_version
-from meshjig.solid.printable.float32 import printable
+from meshjig.solid.printable import printable
 from meshjig.tiling.template import classic
 
 __all__ = ["coupon_clearances", "make_coupon", "save_coupon"]

@@ -12,7 +12,7 @@ from meshjig.output.pictures.view import guess_up
 from meshjig.output.piece import Piece
 from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
-from meshjig.solid.printable.float32 import all_printable
+from meshjig.solid.printable import all_printable
 
 __all__ = ["add_core", "core_of", "finished"]
 

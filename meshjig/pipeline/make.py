@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 
 from meshjig.charts import MappedAtlas
-from meshjig.check import touched_pieces
 from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
 from meshjig.errors import OptionError
 from meshjig.layout.cells import cell_layout
+from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.interlock import interlock
-from meshjig.layout.layout import Layout, Parts
+from meshjig.layout.layout import Layout, Parts, affected_pieces
 from meshjig.layout.tiles import tile_layout
-from meshjig.layout.unique import LEAST_DIFFERENCE, clashes
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
@@ -96,8 +95,8 @@ def make_puzzle(
     with stages("check"):
         locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
-        touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
-        exempt = [names[i] for i in sorted(touched)]
+        affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
+        exempt = [names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
         solids, verdict, mended = judged(solids, names, neighbours, options, exempt)
         solid_facts["dented"] = mended["dented"]

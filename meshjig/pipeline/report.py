@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check import Verdict, area_cv, area_error, outer_gap
+from meshjig.check import Verdict, area_cv, area_error
 from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout, Parts
+from meshjig.layout.outer_gap import outer_gap
 from meshjig.mesh.measure import face_areas, mesh_volume, sums
 from meshjig.mesh.types import Floats, Ints, Scan
 from meshjig.options import Options

@@ -12,7 +12,7 @@ from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.types import Floats, Ints
 from meshjig.options import Options
 from meshjig.solid import keep_apart
-from meshjig.solid.printable.float32 import printable
+from meshjig.solid.printable import printable
 
 __all__ = ["judged"]
 

@@ -3,9 +3,9 @@
 from meshjig.solid.directions import miter_directions
 from meshjig.solid.enforce_gap import keep_apart
 from meshjig.solid.kerf import kerf
-from meshjig.solid.pieces import INNER, OUTER, WALL, Solid, solidify
+from meshjig.solid.offset_sheet import check_thickness, displacement
 from meshjig.solid.shell import Shell, shell
-from meshjig.solid.shell_map import check_thickness, displacement
+from meshjig.solid.solidify import INNER, OUTER, WALL, Solid, solidify
 
 __all__ = [
     "INNER",

@@ -1,16 +1,17 @@
-"""Take the gap out of solid pieces, and see to it that none of them crosses itself."""
+"""Take the gap out of solid pieces, and repair those that cross themselves."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, largest, sound
-from meshjig.mesh.types import Floats, Ints
-from meshjig.solid.crossing_pairs import crossing_pairs
+from meshjig.solid.crossing_pairs import at_any_corner, crossing_pairs
 from meshjig.solid.cutters import cutters, round_cutters
 from meshjig.solid.offsets import Offsets, Strip
-from meshjig.solid.pieces import Solid
-from meshjig.solid.repair_solid import mended
+from meshjig.solid.solidify import OUTER, Solid, solidify
 
 __all__ = ["Carved", "carve"]
 
@@ -120,3 +121,36 @@ def _carved(whole: Body, cutters: list[Body], state: str) -> Carved:
 
 def _crosses(piece: Carved) -> bool:
     return bool((crossing_pairs(piece.V, piece.F)[1] > _DEPTH).any())
+
+
+def mended(solid: Solid, width: int) -> Body | None:
+    """Replace the folded part of a piece by a union of prisms, one under each outer face.
+
+    Parameters
+    ----------
+    solid : Solid
+    width : int, how many rings of faces around a crossing are replaced
+
+    Returns
+    -------
+    body, or None when the solid crosses itself nowhere
+    """
+    import manifold3d
+
+    crossing = crossing_pairs(solid.V, solid.F)[0]
+    if not len(crossing):
+        return None
+    m = int((solid.kind == OUTER).sum())
+    n = len(solid.V) // 2
+    outer, X, Y = solid.F[:m], solid.V[:n], solid.V[n:]
+    folded = np.zeros(n, bool)
+    folded[solid.F[crossing.ravel()].ravel() % n] = True
+    for _ in range(width - 1):
+        folded[outer[at_any_corner(folded, outer)]] = True
+    region = at_any_corner(folded, outer)
+    prisms = [manifold3d.Manifold.hull_points(np.concatenate([X[face], Y[face]])) for face in outer[region]]
+    bodies = [prism for prism in prisms if sound(prism)]
+    if not region.all():
+        rest = solidify(X, outer[~region], np.zeros(int((~region).sum()), np.int64), Y - X)[0][0]
+        bodies.append(body(rest.V, rest.F))
+    return manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add)

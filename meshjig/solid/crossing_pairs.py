@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.intersections import crossing_faces
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["at_any_corner", "cell_size", "crossing_pairs", "near"]
 

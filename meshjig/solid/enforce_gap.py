@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, largest, sound
-from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.cutters import ball
 

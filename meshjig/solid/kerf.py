@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.booleans import share_cores
 from meshjig.mesh.measure import mesh_volume, sums
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.runtime.worker import Background
 from meshjig.solid.border_chains import border_chains
 from meshjig.solid.carve_gap import Carved, carve
 from meshjig.solid.offsets import Strip, mitered
-from meshjig.solid.pieces import solidify
+from meshjig.solid.solidify import solidify
 from meshjig.solid.wall_edges import split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
 

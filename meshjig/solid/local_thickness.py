@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import area_vectors, face_areas
 from meshjig.mesh.rays import RayScene
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["inward_room", "thin_share"]
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Offsets", "Strip", "mitered"]
 

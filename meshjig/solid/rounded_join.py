@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.rays import RayScene
-from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.surface_distance import SurfaceDistance
 
 __all__ = ["rounded"]

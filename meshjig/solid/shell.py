@@ -8,9 +8,9 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.errors import SolidError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges
-from meshjig.mesh.types import Floats, Ints
-from meshjig.solid.shell_map import laid, thinness
+from meshjig.solid.offset_sheet import laid, thinness
 
 __all__ = ["Shell", "shell"]
 

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.solid.crossing_pairs import at_any_corner, cell_size, crossing_pairs, near
-from meshjig.solid.submesh import part_around
-from meshjig.solid.vertex_patches import Patches
-from meshjig.solid.visible_directions import visible_directions
+from meshjig.solid.directions import visible_directions
+from meshjig.solid.vertex_patches import Patches, part_around
 
 __all__ = ["flipped", "unfold"]
 

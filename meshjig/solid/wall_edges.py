@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["bends", "bent", "split_bent_walls"]
 

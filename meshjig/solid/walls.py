@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Floats, Ints
-from meshjig.solid.border_chains import Chains
+from meshjig.solid.border_chains import Chains, simplified
 from meshjig.solid.offsets import Strip
-from meshjig.solid.simplify_chain import simplified
 
 __all__ = ["most_bend", "wall_strip"]
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.check import gaps, judge
-from meshjig.check.sheets import without_sheets
+from meshjig.check.thickness import without_sheets
 from tests.check.pieces import box, hemisphere_shells, turned
 
 LEFT = box([0, 0, 0], [10, 10, 2], 6)

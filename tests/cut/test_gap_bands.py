@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from meshjig.check.outer_gap import outer_gap
 from meshjig.cut.gap_bands import gap_outlines
 from meshjig.cut.overlay import overlay
 from meshjig.cut.transfer_pieces import carry_pieces
 from meshjig.errors import CutError
+from meshjig.layout.outer_gap import outer_gap
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import GAP, Atlas, Mesh
 from tests.cut.graphs import SIDE, atlas, flat_sheet, grid_graph, loops, sheet_atlas, square, two_charts

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import shapely
 
-from meshjig.check.outer_gap import outer_gap
 from meshjig.cut.gap_bands import gap_outlines
 from meshjig.cut.merge_periodic import fold
 from meshjig.cut.overlay import overlay
 from meshjig.cut.transfer_pieces import carry_pieces
 from meshjig.layout.interlock import interlock
+from meshjig.layout.outer_gap import outer_gap
 from meshjig.layout.stitch import region_graph
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import GAP

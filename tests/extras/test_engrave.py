@@ -7,7 +7,7 @@ from meshjig.check import judge
 from meshjig.check.closed import is_closed_as_stl
 from meshjig.extras.engrave import LETTERING, engrave
 from meshjig.extras.text import text_outline
-from meshjig.solid.printable.float32 import printable
+from meshjig.solid.printable import printable
 from tests.check.pieces import turned
 from tests.extras.sheets import plate, whole_shell
 from tests.meshes import Shape, half_sphere, noisy, saddle

@@ -3,8 +3,7 @@
 import pytest
 
 from meshjig.errors import OptionError
-from meshjig.extras.glyphs import GLYPHS
-from meshjig.extras.text import reads_both_ways, text_outline
+from meshjig.extras.text import GLYPHS, reads_both_ways, text_outline
 
 DIGITS = "0123456789"
 WRITTEN = [character for character in GLYPHS if character != " "]

@@ -6,8 +6,8 @@ import pytest
 from meshjig.cells import grow_cells
 from meshjig.errors import CutError
 from meshjig.layout.cells import cell_layout
+from meshjig.layout.congruent import clashes
 from meshjig.layout.interlock import interlock
-from meshjig.layout.unique import clashes
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.subdivide import refine_long_edges

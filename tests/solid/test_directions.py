@@ -3,8 +3,7 @@ import pytest
 
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.smoothing import Smoother
-from meshjig.solid.directions import miter_directions, smooth_normals
-from meshjig.solid.visible_directions import visible_directions
+from meshjig.solid.directions import miter_directions, smooth_normals, visible_directions
 from tests.meshes import creased_box, noisy, saddle, sphere, torus
 
 

@@ -10,9 +10,9 @@ from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.solid import displacement, kerf, solidify
 from meshjig.solid.border_chains import border_chains
-from meshjig.solid.pieces import OUTER
-from meshjig.solid.printable.float32 import printable
-from meshjig.solid.repair_solid import mended
+from meshjig.solid.carve_gap import mended
+from meshjig.solid.printable import printable
+from meshjig.solid.solidify import OUTER
 from tests.meshes import creased_box, disc, genus2, half_sphere, noisy, open_cup, sphere, torus
 
 SHAPES = {

@@ -4,10 +4,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.arrays import ranks, row_of
+from meshjig.mesh.arrays import Bools, Floats, Ints, ranks, row_of
 from meshjig.mesh.halfedges import Edges
 from meshjig.mesh.measure import vertex_normals
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["ALONG", "Rim", "between", "distances_along", "rim_of"]
 

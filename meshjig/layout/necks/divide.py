@@ -6,10 +6,11 @@ import numpy as np
 
 from meshjig.layout.necks.neck_prefilter import could_be_narrow
 from meshjig.layout.necks.width_components import parts_by_width
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import face_areas, sums
-from meshjig.mesh.types import Bools, CutMesh, Floats, Ints, Stitching
+from meshjig.mesh.types import CutMesh, Stitching
 
 __all__ = ["divide_at_isthmuses"]
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from meshjig.mesh.arrays import connected, ranks, row_of
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected, ranks, row_of
 from meshjig.mesh.boundary_loops import summed_along
 from meshjig.mesh.halfedges import Edges, next_halfedge
 from meshjig.mesh.measure import sums
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["could_be_narrow"]
 

@@ -7,9 +7,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from meshjig.layout.necks.border_distance import ALONG, Rim, between, distances_along, rim_of
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import compact, edges
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["parts_by_width"]
 

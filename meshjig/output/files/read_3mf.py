@@ -11,7 +11,7 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.types import Floats, Ints
-from meshjig.mesh.validated import sound_piece, weld
+from meshjig.mesh.validated import validated, weld
 from meshjig.scan.three_mf import open_3mf
 
 __all__ = ["read_3mf"]
@@ -55,9 +55,9 @@ def read_3mf(path: Path) -> list[tuple[str, Floats, Ints]]:
             item = items.GetCurrent()
             for mesh, placed in _meshes(item.GetObjectResource(), _matrix(item.GetObjectTransform())):
                 name = mesh.GetName() or f"{path.stem}_{len(pieces) + 1:03d}"
-                V, F = sound_piece(*_geometry(mesh), f"{name} in {path}")
+                V, F = validated(*_geometry(mesh), f"{name} in {path}")
                 V, F = weld((V @ placed[:3, :3] + placed[3, :3]) * unit, F)
-                pieces.append((name, *sound_piece(V, F, f"{name} in {path}")))
+                pieces.append((name, *validated(V, F, f"{name} in {path}")))
     except lib3mf.ELib3MFException as error:
         raise InputError(f"{path} can't be read as 3MF ({str(error).splitlines()[0]})") from None
     if not pieces:

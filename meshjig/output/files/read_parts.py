@@ -10,7 +10,7 @@ import numpy as np
 from meshjig.errors import InputError
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.types import Floats, Ints
-from meshjig.mesh.validated import sound_piece, weld
+from meshjig.mesh.validated import validated, weld
 from meshjig.scan.announced import gltf_shortfall
 from meshjig.scan.pictures import PictureReader
 from meshjig.scan.reading import load_by_trimesh
@@ -102,9 +102,9 @@ def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
 
 
 def _part(V: Floats, F: Ints, name: str, path: Path) -> tuple[str, Floats, Ints]:
-    V, F = sound_piece(V, F, f"{name} in {path}")
+    V, F = validated(V, F, f"{name} in {path}")
     F, kept = compact(F)
-    return name, *sound_piece(*weld(V[kept], F), f"{name} in {path}")
+    return name, *validated(*weld(V[kept], F), f"{name} in {path}")
 
 
 def _numbers(lines: list[str], start: str, kind: type) -> Floats:

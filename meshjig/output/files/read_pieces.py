@@ -12,7 +12,7 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.types import Floats, Ints
-from meshjig.mesh.validated import sound_piece, weld
+from meshjig.mesh.validated import validated, weld
 from meshjig.output.files.read_3mf import read_3mf
 from meshjig.output.files.read_parts import is_own_obj, read_glb, read_own_obj
 from meshjig.runtime.bounded import allow_file
@@ -136,8 +136,8 @@ def _read_mesh(path: Path) -> NamedPiece:
     V, F = _binary_stl(path) if path.suffix.lower() == ".stl" else (None, None)
     if V is None:
         V, F = _by_trimesh(path)
-    V, F = sound_piece(V, F, str(path))
-    return path.stem, *sound_piece(*weld(V, F), str(path))
+    V, F = validated(V, F, str(path))
+    return path.stem, *validated(*weld(V, F), str(path))
 
 
 def _binary_stl(path: Path) -> tuple[Any, Any]:

@@ -16,7 +16,7 @@ from meshjig.output.plates.footprint import convex_ring, footprint, least_rectan
 from meshjig.output.plates.pack import Spots, fits, pack
 from meshjig.output.plates.pose import Pose, lying_pose
 from meshjig.output.plates.printers import Plate
-from meshjig.solid.printable.float32 import printable
+from meshjig.solid.printable import printable
 
 __all__ = ["GAP", "Laid", "lay_out", "write_plates"]
 

@@ -2,7 +2,7 @@ import numpy as np
 
 from meshjig.output.files.obj import write_obj
 from meshjig.output.piece import Piece
-from meshjig.solid.printable.float32 import printable
+from meshjig.solid.printable import printable
 from tests.meshes import sphere, torus
 
 PIECES = [

@@ -4,7 +4,7 @@ import pytest
 
 from meshjig.errors import SolidError
 from meshjig.solid.crossing_pairs import crossing_pairs
-from meshjig.solid.shell_map import displacement
+from meshjig.solid.offset_sheet import displacement
 from tests.meshes import (
     cavity_shell,
     creased_box,

@@ -6,7 +6,7 @@ import pytest
 from meshjig.check.self_intersection import self_intersections
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, mesh_volume
-from meshjig.solid.printable.needles import without_needles
+from meshjig.solid.slivers import without_needles
 from tests.meshes import creased_box, genus2, sphere
 
 LEAST = 1e-4

@@ -6,10 +6,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.separate_float32 import pull_fans_apart, pull_inner_apart
 
 __all__ = ["INNER", "LEAST_MM", "OUTER", "WALL", "Solid", "solidify"]

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from meshjig.errors import OutputError
 from meshjig.mesh.measure import mesh_volume
-from meshjig.solid.printable.float32 import all_printable, printable
+from meshjig.solid.printable import all_printable, printable
 from tests.meshes import Shape, closed_cylinder, creased_box, genus2, joined, sphere, torus
 from tests.strategies import CLOSED, meshes
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshjig.mesh.components import components
-from meshjig.solid.pieces import INNER, OUTER, WALL, solidify
+from meshjig.solid.solidify import INNER, OUTER, WALL, solidify
 from tests.meshes import creased_box, cylinder, disc, genus2, noisy, open_cup, sphere, torus, two_components
 
 SHAPES = {

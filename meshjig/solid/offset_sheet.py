@@ -7,10 +7,10 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.errors import SolidError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.mesh.smoothing import Smoother
-from meshjig.mesh.types import Floats, Ints
 from meshjig.solid.directions import smooth_normals
 from meshjig.solid.local_thickness import inward_room, thin_share
 from meshjig.solid.rounded_join import rounded

@@ -1,6 +1,6 @@
 import numpy as np
 
-from meshjig.solid.submesh import part_around
+from meshjig.solid.vertex_patches import part_around
 from tests.meshes import joined, moved, sphere, torus
 
 

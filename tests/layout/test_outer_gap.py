@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.check.outer_gap import outer_gap
+from meshjig.layout.outer_gap import outer_gap
 
 
 def plates(*gaps, side=10.0):

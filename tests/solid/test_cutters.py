@@ -3,9 +3,8 @@ import pytest
 import trimesh
 
 from meshjig.solid.crossing_pairs import crossing_pairs
-from meshjig.solid.cutters import cutters, round_cutters
+from meshjig.solid.cutters import cutters, round_cutters, slabs
 from meshjig.solid.offsets import Strip, mitered
-from meshjig.solid.slab import slabs
 
 HALF = 0.1
 HEIGHT = 2.0

@@ -7,8 +7,7 @@ import numpy as np
 from meshjig.errors import OutputError
 from meshjig.mesh.arrays import Floats, Ints, row_of, starts
 from meshjig.mesh.halfedges import compact
-from meshjig.solid.printable.needles import low_faces, without_needles
-from meshjig.solid.printable.short_edges import without_degenerate, without_short_edges
+from meshjig.solid.slivers import low_faces, without_degenerate, without_needles, without_short_edges
 
 __all__ = ["all_printable", "printable"]
 

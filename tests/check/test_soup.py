@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from meshjig.mesh.sampling import area_samples, soup
+from meshjig.check.soup import area_samples, soup
 from tests.check.pieces import box, turned
 from tests.meshes import sphere
 

@@ -1,21 +1,22 @@
-"""Points spread evenly over the surface of all pieces, the same ones every time."""
+"""All pieces as one list of faces: points spread evenly over them, and rays from one to another."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Floats, Ints, connected, row_of, starts
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, interpolate
-from meshjig.mesh.types import Floats, Ints
-from meshjig.mesh.validated import Piece
+from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.rays import RayScene
 
-__all__ = ["Samples", "Soup", "area_samples", "smooth_regions", "soup"]
+__all__ = ["Samples", "Soup", "area_samples", "first_hit", "smooth_regions", "soup"]
 
 _SMOOTH = 0.906  # cosine of 25 degrees, the most that faces of one region turn at an edge
+_SKIN = 1e-3  # mm; rays start this far from the surface, since Embree works in float32
 
 
 class Soup(NamedTuple):
@@ -36,16 +37,17 @@ class Samples(NamedTuple):
     face: Ints  # (k,)
 
 
-def soup(pieces: Sequence[Piece]) -> Soup:
+def soup(pieces: Iterable[Mesh]) -> Soup:
     """Put all pieces into one list of faces."""
-    first = np.cumsum([0] + [len(V) for V, _ in pieces])
-    V = np.concatenate([V for V, _ in pieces])
-    F = np.concatenate([F + shift for (_, F), shift in zip(pieces, first, strict=False)])
-    count = [len(F) for _, F in pieces]
-    piece = np.repeat(np.arange(len(pieces)), count)
+    verts, faces = zip(*pieces, strict=True)
+    first, count = starts(np.array([len(V) for V in verts])), np.array([len(F) for F in faces])
+    V, F = np.concatenate(verts), np.concatenate([F + k for F, k in zip(faces, first, strict=True)])
+    piece = row_of(count)
     twice = area_vectors(V, F)
     area = np.linalg.norm(twice, axis=1) / 2
-    return Soup(V, F, piece, twice / np.maximum(2 * area, 1e-300)[:, None], area, np.cumsum([0, *count]))
+    return Soup(
+        V, F, piece, twice / np.maximum(2 * area, 1e-300)[:, None], area, np.append(0, np.cumsum(count))
+    )
 
 
 def area_samples(s: Soup, n: int) -> Samples:
@@ -70,3 +72,16 @@ def smooth_regions(s: Soup) -> Ints:
     a, b = h // 3, twin[h] // 3
     smooth = np.einsum("ij,ij->i", s.N[a], s.N[b]) > _SMOOTH
     return connected(len(s.F), a[smooth], b[smooth])[1]
+
+
+def first_hit(scene: RayScene, s: Soup, P: Floats, direction: Floats) -> tuple[Ints, Floats]:
+    """Shoot rays from points of the surface; give the faces they meet, -1 for none, and how far it is.
+
+    The distance is measured to the plane of the face in double precision.
+    """
+    face = scene.first_face(P + _SKIN * direction, direction)
+    toward = np.einsum("ij,ij->i", s.N[face], direction)
+    height = np.einsum("ij,ij->i", s.N[face], s.V[s.F[face, 0]] - P)
+    flat = np.abs(toward) < 1e-6
+    way = np.where(flat, np.inf, height / np.where(flat, 1.0, toward))
+    return np.where(way > 0, face, -1), way

@@ -1,1 +1,0 @@
-"""Solids as files of 32-bit floats can hold them."""
