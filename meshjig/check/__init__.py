@@ -2,7 +2,7 @@
 
 from meshjig.check.areas import area_cv, area_error
 from meshjig.check.closed import as_stl, is_closed, is_closed_as_stl, is_one_component, volume
-from meshjig.check.core import add_failures, judge_core
+from meshjig.check.core import CoreChecks, add_failures, judge_core
 from meshjig.check.gap import Gap, gaps
 from meshjig.check.judge import Verdict, judge
 from meshjig.check.overlap import Overlaps, overlaps
@@ -10,6 +10,7 @@ from meshjig.check.self_intersection import crossing_depth, self_intersections
 from meshjig.check.thickness import Thickness, measure_thickness
 
 __all__ = [
+    "CoreChecks",
     "Gap",
     "Overlaps",
     "Thickness",

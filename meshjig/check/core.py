@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,16 +13,25 @@ from meshjig.check.judge import GAP_SHARE, OVERLAP_MM3
 from meshjig.check.self_intersection import self_intersections
 from meshjig.mesh.pieces import Pieces
 
-__all__ = ["add_failures", "judge_core"]
+__all__ = ["CoreChecks", "add_failures", "judge_core"]
+
+
+@dataclass(frozen=True)
+class CoreChecks:
+    """What was measured on a core."""
+
+    gap_mm: float | None  # least distance of a part and a piece; None beyond 1 mm or three clearances
+    overlap_mm3: float
+    self_intersections: int
 
 
 def judge_core(
-    core: Sequence[Sequence[Any]],
-    pieces: Sequence[Sequence[Any]],
+    core: Iterable[Any],
+    pieces: Iterable[Any],
     *,
     clearance: float | None = None,
     exempt_pieces: Collection[str] = (),
-) -> tuple[dict[str, Any], dict[str, list[str]]]:
+) -> tuple[CoreChecks, dict[str, list[str]]]:
     """Judge the parts of a core, and how far they stay from the pieces.
 
     Each part keeps the promises of a piece (see `judge`) but for thickness; parts that touch where the
@@ -30,16 +40,14 @@ def judge_core(
 
     Parameters
     ----------
-    core, pieces : list of (name, V, F)
+    core, pieces : Pieces, or list of (name, V, F)
         V (n, 3), mm; F (m, 3).
     clearance : float, mm, optional
     exempt_pieces : names of pieces that may be too near
 
     Returns
     -------
-    facts : dict
-        "gap_mm": least distance of a part and a piece, None where none is within 1 mm or three
-        clearances; "overlap_mm3"; "self_intersections".
+    checks : CoreChecks
     failures : dict
         Names of promises, each with the parts that break it, and pieces they break it with.
 
@@ -48,7 +56,8 @@ def judge_core(
     InputError
         Arrays that are no mesh with finite coordinates.
     """
-    both = Pieces.of([*core, *pieces])
+    parts, pieces = Pieces.of(core), Pieces.of(pieces)
+    both = Pieces((*parts.names, *pieces.names), (*parts.solids, *pieces.solids))
     names = both.names
     failures: dict[str, list[str]] = {}
 
@@ -57,7 +66,7 @@ def judge_core(
         if found:
             failures[promise] = [names[i] for i in sorted(found)]
 
-    own = range(len(core))
+    own = range(len(parts))
     crossings = [len(self_intersections(*both[i])) for i in own]
     hold("closed", [(i,) for i in own if not is_closed_as_stl(*both[i])])
     hold("one_component", [(i,) for i in own if not is_one_component(both[i].F)])
@@ -68,7 +77,7 @@ def judge_core(
     solid, spared = both.bodies, set(exempt_pieces)
     pairs = both.close(reach)
     shared, least = {}, {}
-    for i, j in pairs[(pairs[:, 0] < len(core)) & (pairs[:, 1] >= len(core))].tolist():
+    for i, j in pairs[(pairs[:, 0] < len(parts)) & (pairs[:, 1] >= len(parts))].tolist():
         if solid[i] is None or solid[j] is None or names[j] in spared:
             continue
         least[i, j] = float(solid[i].min_gap(solid[j], reach))
@@ -78,12 +87,8 @@ def judge_core(
     if clearance:
         hold("gap_mm", [pair for pair, gap in least.items() if gap < GAP_SHARE * clearance])
     nearest = min(least.values(), default=np.inf)
-    facts = {
-        "gap_mm": nearest if nearest < reach else None,
-        "overlap_mm3": sum(shared.values()),
-        "self_intersections": sum(crossings),
-    }
-    return facts, failures
+    gap = nearest if nearest < reach else None
+    return CoreChecks(gap, sum(shared.values()), sum(crossings)), failures
 
 
 def add_failures(failures: dict[str, list[str]], more: dict[str, list[str]]) -> None:

@@ -1,7 +1,7 @@
 """What makes a puzzle easier to build: labels on its pieces, and a core to build it on."""
 
-from meshjig.extras.core import make_core
+from meshjig.extras.core import CoreShape, make_core
 from meshjig.extras.engrave import LETTERING, Lettering, engrave
 from meshjig.extras.text import text_outline
 
-__all__ = ["LETTERING", "Lettering", "engrave", "make_core", "text_outline"]
+__all__ = ["LETTERING", "CoreShape", "Lettering", "engrave", "make_core", "text_outline"]

@@ -10,10 +10,10 @@ from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import face_areas, unit
 
-__all__ = ["closed_over"]
+__all__ = ["cap_openings"]
 
 
-def closed_over(V: Floats, F: Ints) -> tuple[Floats, Ints, float]:
+def cap_openings(V: Floats, F: Ints) -> tuple[Floats, Ints, float]:
     """Close every opening by the flattest lid there is.
 
     Parameters

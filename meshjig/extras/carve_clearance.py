@@ -10,12 +10,12 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body
 from meshjig.mesh.measure import unit
 
-__all__ = ["carved"]
+__all__ = ["carve_clearance"]
 
 _OVER = 1.02  # of the distance: balls are made of flat faces
 
 
-def carved(core: Body, V: Floats, F: Ints, distance: float) -> Body:
+def carve_clearance(core: Body, V: Floats, F: Ints, distance: float) -> Body:
     """Take from a body what is nearer to faces than a distance.
 
     Parameters

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import product
-from typing import Any
 
 import numpy as np
 
 from meshjig.errors import SolidError
-from meshjig.extras.cap_openings import closed_over
-from meshjig.extras.carve_clearance import carved
+from meshjig.extras.cap_openings import cap_openings
+from meshjig.extras.carve_clearance import carve_clearance
 from meshjig.extras.depth import Depth
-from meshjig.extras.enforce_clearance import cleared
+from meshjig.extras.enforce_clearance import enforce_clearance
 from meshjig.extras.inset import inset_surface
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, largest, sound
@@ -20,7 +20,7 @@ from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, unit
 from meshjig.mesh.types import Mesh
 
-__all__ = ["make_core"]
+__all__ = ["CoreFacts", "CoreShape", "make_core"]
 
 _CELLS = 125  # along the largest extent
 _AIM = 1.1  # of the clearance: the gap is known in many places, not in all
@@ -32,16 +32,29 @@ _LONGEST = 4.0  # walls, length of a drain
 _SIDES = 24
 
 
-def make_core(
-    outer: Mesh,
-    D: Floats,
-    clearance: float,
-    *,
-    wall: float,
-    min_wall: float,
-    up: Floats,
-    plate: tuple[float, float, float] | None = None,
-) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+@dataclass(frozen=True)
+class CoreFacts:
+    """What the report says of how the core was made."""
+
+    parts: int
+    volume_mm3: float
+    drains: int
+    dropped: int  # loose parts that were left out
+    closed_mm2: float  # area of the model's openings
+
+
+@dataclass(frozen=True)
+class CoreShape:
+    """What a core is to be like."""
+
+    clearance: float  # mm, between the inner sheet and the core, at least
+    wall: float  # mm; 0 for a solid core
+    min_wall: float  # mm; the core has no thinner parts, roughly
+    up: Floats  # (3,), unit, the way the core stands when it is emptied
+    plate: tuple[float, float, float] | None = None  # mm, width, depth and height that a printer can make
+
+
+def make_core(outer: Mesh, D: Floats, shape: CoreShape) -> tuple[list[tuple[Floats, Ints]], CoreFacts]:
     """Make the body that fills a puzzle, but for a gap.
 
     Limbs too thin for a core have none. It is hollow, with a drain below each hollow, and cut into blocks
@@ -51,18 +64,12 @@ def make_core(
     ----------
     outer : Mesh, the outer sheet of the pieces; its openings are closed by lids
     D : (n, 3) float64, mm, from its vertices to the inner sheet
-    clearance : float, mm, between the inner sheet and the core, at least
-    wall : float, mm; 0 for a solid core
-    min_wall : float, mm; the core has no thinner parts, roughly
-    up : (3,) float64, unit, the way the core stands when it is emptied
-    plate : (3,) float, mm, width, depth and height of what a printer can make, optional
+    shape : CoreShape
 
     Returns
     -------
     parts : list of (V, F), closed and oriented outward
-    facts : dict
-        "parts": int; "volume_mm3": float; "drains": int; "dropped": int, loose parts that were left out;
-        "closed_mm2": area of the model's openings.
+    facts : CoreFacts
 
     Raises
     ------
@@ -73,9 +80,9 @@ def make_core(
     -----
     About 3 s for 100,000 faces.
     """
-    V, F, closed = closed_over(outer.V + D, outer.F)
+    V, F, closed = cap_openings(outer.V + D, outer.F)
     cell = float(np.ptp(V, axis=0).max()) / _CELLS
-    aim = _AIM * clearance
+    aim, wall, min_wall = _AIM * shape.clearance, shape.wall, shape.min_wall
     for crossed in (False, True):
         around = Depth(V, F, crossed=crossed)
         made, G = inset_surface(around, aim, cell, min_wall)
@@ -86,27 +93,22 @@ def make_core(
         made = made[kept]
         if sound(body(made, G)):
             break
-    made, near = cleared(made, G, around, aim)
+    made, near = enforce_clearance(made, G, around, aim)
     whole = body(made, G)
     if len(near):
-        whole = largest(carved(whole, V, F[near], aim))[0]
+        whole = largest(carve_clearance(whole, V, F[near], aim))[0]
     if not sound(whole):
         raise SolidError(
             "the core can't be made, since the inner side of this model crosses itself", hint="leave it out"
         )
     drains = 0
     if wall > 0:
-        whole, drains = hollowed(whole, around, aim, wall, cell, up)
-    blocks = _blocks(whole, plate) if plate is not None else [whole]
+        whole, drains = hollowed(whole, around, aim, wall, cell, shape.up)
+    blocks = _blocks(whole, shape.plate) if shape.plate is not None else [whole]
     parts = [part for block in blocks for part in block.decompose()]
     large = [part for part in parts if part.volume() > max(min_wall, cell) ** 3]
-    facts = {
-        "parts": len(large),
-        "volume_mm3": float(sum(part.volume() for part in large)),
-        "drains": drains,
-        "dropped": n - 1 + len(parts) - len(large),
-        "closed_mm2": closed,
-    }
+    volume = float(sum(part.volume() for part in large))
+    facts = CoreFacts(len(large), volume, drains, n - 1 + len(parts) - len(large), closed)
     return [arrays(part) for part in large], facts
 
 

@@ -10,7 +10,7 @@ from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.intersections import crossing_faces
 from meshjig.mesh.measure import area_vectors, unit
 
-__all__ = ["cleared"]
+__all__ = ["enforce_clearance"]
 
 _REACH = 0.5  # edges of a face, that a vertex may be moved to its depth
 _YIELD = 0.25  # edges of a face, that it gives way after that: more would fold
@@ -26,7 +26,7 @@ _CREASE = 0.95  # cosine between the faces of a crease; over a flatter one a fac
 _FAR = 1.25  # times the distance that most have; what is farther at first is not looked at again
 
 
-def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats, Ints]:
+def enforce_clearance(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats, Ints]:
     """Move the vertices of a surface inside another so that its faces keep the clearance.
 
     First every vertex goes to the depth that was asked for. Flat faces then still come too near where the
@@ -54,7 +54,7 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
     step = np.where((lack < _REACH * edge) & (lack > -_YIELD * edge), lack, 0.0)
     first, V = V, _stepped(V, F, step[:, None] * away)
     places = [np.arange(len(V))[:, None], F, *(E[:, ends] for ends in _ON_EDGE)]
-    room = Room(places, F, around, min(_SPACING * clearance, _YIELD * edge))
+    room = Clearance(places, F, around, min(_SPACING * clearance, _YIELD * edge))
     V, gone = _given_way(V, np.zeros(len(V)), away, edge, clearance, room)
     G = F[(gone > 0)[F].any(axis=1)]
     room.look_at([G[:, corners] for corners in _ON_FACE])
@@ -65,7 +65,7 @@ def cleared(V: Floats, F: Ints, around: Depth, clearance: float) -> tuple[Floats
 
 
 def _given_way(
-    V: Floats, gone: Floats, away: Floats, edge: float, clearance: float, room: Room
+    V: Floats, gone: Floats, away: Floats, edge: float, clearance: float, room: Clearance
 ) -> tuple[Floats, Floats]:
     """Move vertices off while there is not enough room; give them, and how far each has gone in all."""
     moved = np.zeros(len(V), bool)
@@ -104,7 +104,7 @@ def _uncrossed(V: Floats, first: Floats, F: Ints) -> Floats:
         V[back] = first[back]
 
 
-class Room:
+class Clearance:
     """Distances from places on a surface, and from the other surface's corners and creases.
 
     Parameters

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.extras.groove import groove
-from meshjig.extras.label_place import Place, places
+from meshjig.extras.label_place import LabelPlace, label_places
 from meshjig.extras.text import text_outline
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, sound
@@ -17,7 +18,7 @@ from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.rays import RayScene
 from meshjig.mesh.types import Mesh
 
-__all__ = ["LETTERING", "Lettering", "engrave", "wall_behind"]
+__all__ = ["LETTERING", "LabelFacts", "Lettering", "engrave", "wall_behind"]
 
 _MOST = 0.35  # of the wall, that is taken away
 _LEAST = 0.6  # of the depth that was asked for; what is shallower can't be read
@@ -49,15 +50,24 @@ LETTERING = {
 }
 
 
+@dataclass(frozen=True)
+class LabelFacts:
+    """What the report says of the labels."""
+
+    engraved: int
+    least_height_mm: float | None  # of the smallest text, None without any
+    skipped: dict[str, str]  # label: why
+
+
 def engrave(
-    pieces: Sequence[tuple[Floats, Ints]],
+    pieces: Iterable[Mesh | tuple[Floats, Ints]],
     labels: Sequence[str],
     outer: Mesh,
     D: Floats,
     lettering: Lettering,
     *,
     min_wall: float = 0.0,
-) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+) -> tuple[list[tuple[Floats, Ints]], LabelFacts]:
     """Engrave a label into the inner side of every piece where it fits.
 
     The text lies where the inner side is widest and nearly flat, follows its curvature, and is evenly deep.
@@ -77,8 +87,7 @@ def engrave(
     -------
     pieces : list of (V, F)
         In the same order; those that got no label are as they were.
-    facts : dict
-        "engraved": int; "least_height_mm": of the smallest text, None without any; "skipped": {label: why}.
+    facts : LabelFacts
 
     Raises
     ------
@@ -88,19 +97,17 @@ def engrave(
     shallowest = _LEAST * lettering.depth
     needed = max(shallowest / _MOST, shallowest + min_wall)
     made, skipped, heights = [], {}, []
-    for (V, F), label, wall in zip(pieces, labels, wall_behind(pieces, outer, D), strict=True):
-        ground = F[wall >= needed]
-        done = (
-            _engraved(V, F, ground, wall[wall >= needed], label, lettering, min_wall) if len(ground) else None
-        )
+    solids = [(V, F) for V, F in pieces]
+    for (V, F), label, wall in zip(solids, labels, wall_behind(solids, outer, D), strict=True):
+        ground = np.flatnonzero(wall >= needed)
+        done = _engraved(Mesh(V, F), ground, wall, label, lettering, min_wall) if len(ground) else None
         if done is None:
             made.append((V, F))
             skipped[label] = _why(V, F, wall, needed)
         else:
             made.append(done[0])
             heights.append(done[1])
-    facts = {"engraved": len(heights), "least_height_mm": min(heights, default=None), "skipped": skipped}
-    return made, facts
+    return made, LabelFacts(len(heights), min(heights, default=None), skipped)
 
 
 def _why(V: Floats, F: Ints, wall: Floats, needed: float) -> str:
@@ -113,18 +120,18 @@ def _why(V: Floats, F: Ints, wall: Floats, needed: float) -> str:
 
 
 def _engraved(
-    V: Floats, F: Ints, ground: Ints, wall: Floats, label: str, lettering: Lettering, min_wall: float
+    piece: Mesh, ground: Ints, wall: Floats, label: str, lettering: Lettering, min_wall: float
 ) -> tuple[tuple[Floats, Ints], float] | None:
     """Engrave one piece; give it with the height of its text, or None where there is no place."""
-    whole = body(V, F)
+    whole, V, sheet, wall = body(*piece), piece.V, piece.F[ground], wall[ground]
     heights = np.linspace(lettering.height, lettering.least_height, _SIZES).tolist()
     outlines = [text_outline(label, height, lettering.stroke) for height in heights]
     sizes = [2 * np.array(outline.bounds[2:]) for outline in outlines]
     inset = min(_TAPER * lettering.depth, _SHARPEST * lettering.stroke)
-    for i, place in places(V, ground, sizes, lettering.stroke / 2 + inset):
+    for i, place in label_places(V, sheet, sizes, lettering.stroke / 2 + inset):
         least = float(wall[place.ground].min())
         depth = min(lettering.depth, _MOST * least, least - min_wall)
-        carver = _carver(V, ground[place.ground], place, outlines[i], inset, depth)
+        carver = _carver(V, sheet[place.ground], place, outlines[i], inset, depth)
         if carver is None or not sound(rest := whole - carver):
             continue
         expected = depth * (outlines[i].area - inset * outlines[i].length / 2)
@@ -135,7 +142,7 @@ def _engraved(
     return None
 
 
-def _carver(V: Floats, F: Ints, place: Place, outline: Any, inset: float, depth: float) -> Body | None:
+def _carver(V: Floats, F: Ints, place: LabelPlace, outline: Any, inset: float, depth: float) -> Body | None:
     """Give the body of a text that reaches evenly deep into a sheet, None where a fold is in its way."""
     local = (V - place.origin) @ place.axes.T
     text = groove(outline, inset)

@@ -12,7 +12,7 @@ from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
 
-__all__ = ["Place", "places"]
+__all__ = ["LabelPlace", "label_places"]
 
 _LEAN = (0.9, 0.75)  # cosines; what leans more against the rectangle is no ground for it
 _SEEDS = 5
@@ -24,7 +24,7 @@ _GRAIN = 1.0  # mm2 of ground for each place that is tried
 _UPRIGHT = 0.5  # of the height, that room is given up for a text that stands upright
 
 
-class Place(NamedTuple):
+class LabelPlace(NamedTuple):
     """A plane on a sheet, and the ground around its origin."""
 
     origin: Floats  # (3,)
@@ -32,7 +32,9 @@ class Place(NamedTuple):
     ground: Ints  # faces
 
 
-def places(V: Floats, F: Ints, sizes: Sequence[Floats], margin: float) -> Iterator[tuple[int, Place]]:
+def label_places(
+    V: Floats, F: Ints, sizes: Sequence[Floats], margin: float
+) -> Iterator[tuple[int, LabelPlace]]:
     """Find places for a rectangle on a sheet: flat ones first, then large ones.
 
     Parameters
@@ -44,7 +46,7 @@ def places(V: Floats, F: Ints, sizes: Sequence[Floats], margin: float) -> Iterat
 
     Yields
     ------
-    index of a size, Place
+    index of a size, LabelPlace
         Upright rather than upside down, whether y or z is up. The ground leans against the plane by less
         than 26 degrees, then by less than 42.
     """
@@ -59,7 +61,7 @@ def places(V: Floats, F: Ints, sizes: Sequence[Floats], margin: float) -> Iterat
                 ground = _connected(F, sheet.normal @ toward > lean, seed)
                 found = _widest(sheet, ground, toward, size, margin) if len(ground) else None
                 if found is not None:
-                    yield i, Place(*found, ground)
+                    yield i, LabelPlace(*found, ground)
 
 
 class _Sheet:
@@ -86,7 +88,7 @@ class _Sheet:
 
 
 def _connected(F: Ints, chosen: Bools, seed: int) -> Ints:
-    """List the chosen faces that hang together with one of them."""
+    """List the chosen faces that are connected with one of them."""
     if not chosen[seed]:
         return np.zeros(0, np.int64)
     faces = np.flatnonzero(chosen)

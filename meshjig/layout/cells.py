@@ -42,11 +42,10 @@ def cell_layout(surface: Mesh, options: Options, stages: Stages) -> Layout:
     area = float(face_areas(surface.V, surface.F).sum())
     n = options.pieces if options.piece_size is None else max(1, round(area / options.piece_size**2))
     size = float(np.sqrt(area / n))
-    cells, atlas, knobs = _grown(surface, n, size, options, stages, None, None)
+    cells, atlas, knobs = _grown(surface, n, size, options, stages)
     for _ in range(PASSES - 1 if n < MANY else 0):
-        wanted = _wanted_areas(cells, knobs)
         try:
-            cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, wanted), knobs)
+            cells, atlas, knobs = _grown(surface, n, size, options, stages, (cells, knobs))
         except CutError as error:  # rings, around holes; those before were less even, but whole
             log.info("cells of even areas were not found: %s", error)
             break
@@ -69,11 +68,11 @@ def _cut(
 def _without_clashes(
     layout: Layout, cells: CellMesh, atlas: Atlas, size: float, options: Options, stages: Stages
 ) -> Layout:
-    """Draw all knobs anew for as long as borders look alike, and give the layout with the fewest such."""
+    """Draw all knobs again for as long as borders look alike, and give the layout with the fewest such."""
     best, fewest = layout, np.inf
     for draw in range(1, REDRAWN + 1):
         with stages("unique"):
-            alike = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]["congruent_borders"]
+            alike = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1].congruent_borders
         if alike < fewest:
             best, fewest = layout, alike
         if not alike or draw == REDRAWN:
@@ -90,23 +89,21 @@ def _grown(
     size: float,
     options: Options,
     stages: Stages,
-    before: tuple[CellMesh, Floats] | None,
-    like: KnobLayout | None,
+    before: tuple[CellMesh, KnobLayout] | None = None,
 ) -> tuple[CellMesh, Atlas, KnobLayout]:
     with stages("cells"):
-        start, targets = (None, None) if before is None else (before[0].seeds, before[1])
         cells = grow_cells(
             surface,
             n,
             seed=options.seed,
             style=options.style,
             crease_aware=options.crease_aware,
-            targets=targets,
-            start=start,
+            targets=None if before is None else _wanted_areas(*before),
+            start=None if before is None else before[0].seeds,
         )
         atlas = cell_atlas(cells)
     with stages("knobs"):
-        knobs = _knobs(atlas, size, options, seed=options.seed, like=like)
+        knobs = _knobs(atlas, size, options, seed=options.seed, like=before and before[1])
     return cells, atlas, knobs
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,15 @@ from meshjig.mesh.boundary_loops import follow
 from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
 from meshjig.mesh.types import CutMesh, Knobs
 
-__all__ = ["LEAST_DIFFERENCE", "Border", "borders", "clashes", "congruent_borders", "interchangeable"]
+__all__ = [
+    "LEAST_DIFFERENCE",
+    "Border",
+    "UniqueFacts",
+    "borders",
+    "clashes",
+    "congruent_borders",
+    "interchangeable",
+]
 
 _POINTS = 24  # on each curve; the knob of a border has several of them
 _BATCH = 20_000  # pairs of curves compared at once
@@ -164,7 +173,15 @@ def _meet(a: Floats, b: Floats, tolerance: float) -> np.ndarray:
     return met
 
 
-def clashes(layout: Layout, tolerance: float) -> tuple[Ints, dict[str, Any]]:
+@dataclass(frozen=True)
+class UniqueFacts:
+    """What the report says of what could be taken for one another."""
+
+    congruent_borders: int  # pairs
+    interchangeable_pieces: int  # pairs
+
+
+def clashes(layout: Layout, tolerance: float) -> tuple[Ints, UniqueFacts]:
     """Find borders that look alike.
 
     Parameters
@@ -174,14 +191,14 @@ def clashes(layout: Layout, tolerance: float) -> tuple[Ints, dict[str, Any]]:
 
     Returns
     -------
-    edges : (k,) int64, as Knobs.edge counts them: drawn anew, their borders would be unlike the rest
-    facts : {"congruent_borders": pairs, "interchangeable_pieces": pairs}
+    edges : (k,) int64, as Knobs.edge counts them: drawn again, their borders would be unlike the rest
+    facts : UniqueFacts
     """
     cut = fold(layout.cut, layout.outlines)
     rims = borders(cut, layout.piece_of_face)
     alike = congruent_borders(cut, rims, tolerance)
     swaps = interchangeable(cut, rims, tolerance)
-    facts = {"congruent_borders": len(alike), "interchangeable_pieces": len(swaps)}
+    facts = UniqueFacts(len(alike), len(swaps))
     found = _edges_on([b for _, b in alike], cut, layout.knobs)
     return found, facts
 

@@ -1,7 +1,5 @@
 """The gap between pieces on the outer surface, as it was cut."""
 
-from typing import Any
-
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints, ranks, row_of
@@ -14,7 +12,7 @@ MOST_SAMPLES = 40_000
 REACH = 3.0  # clearances, within which a piece is a neighbour
 
 
-def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict[str, Any]:
+def outer_gap(V: Floats, F: Ints, piece_of_face: Ints, clearance: float) -> dict[str, float | None]:
     """Measure the distance in space from the border of each piece to the nearest border of another.
 
     The border is sampled at up to 40,000 places; the distance of each is exact for the edges near it.

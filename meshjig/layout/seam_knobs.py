@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from meshjig.cells import CellMesh, cell_atlas, knob_outlines
 from meshjig.cut import Further, fold, overlay
 from meshjig.layout.interlock import Interlock, interlock
 from meshjig.layout.layout import Layout, recut
-from meshjig.layout.seam_smoothing import even_seams
+from meshjig.layout.seam_smoothing import smooth_seams
 from meshjig.layout.stitch import region_graph
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import compact
@@ -19,7 +20,7 @@ from meshjig.mesh.measure import barycentric, face_areas, interpolate
 from meshjig.mesh.types import Knobs, Mesh
 from meshjig.options import Options
 
-__all__ = ["knobs_over_seams"]
+__all__ = ["add_seam_knobs"]
 
 log = logging.getLogger("meshjig")
 
@@ -30,7 +31,7 @@ OF_NECK = 2.4  # least necks: the width of a head at which a knob may still be m
 SIZES = (0.5, 1.4)  # relative to the usual width, for the sake of looking like the tiles' own
 
 
-def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int) -> Layout:
+def add_seam_knobs(layout: Layout, options: Options, random: float, seed: int) -> Layout:
     """Even out seams, and give pieces that meet along one a knob where there is room for it.
 
     The pieces on both sides are taken for cells: each is flattened by itself, knobs are laid out in
@@ -52,7 +53,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
     locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
     size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
     pairs = _plain_over_seams(layout, locks, LONG * size)
-    layout, discs = even_seams(layout)
+    layout, discs = smooth_seams(layout)
     piece_of_cell, cells, chosen, kept = _as_cells(layout, discs, pairs)
     number = np.full(layout.stitching.n_pieces, -1)
     number[piece_of_cell] = np.arange(len(piece_of_cell))
@@ -76,7 +77,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
         second = overlay(atlas, knobs.outlines)
         layout, further = recut(layout, chosen, kept, second, piece_of_cell)
         layout = replace(layout, knobs=_with_more(layout.knobs, knobs.knobs, further, n_segments))
-    facts = layout.stitching.facts | {"seam_borders": len(pairs), "seam_knobs": n_knobs}
+    facts = replace(layout.stitching.facts, seam_borders=len(pairs), seam_knobs=n_knobs)
     return replace(layout, stitching=replace(layout.stitching, facts=facts))
 
 
@@ -96,16 +97,17 @@ def _plain_over_seams(layout: Layout, locks: Interlock, least: float) -> Ints:
     return locks.pairs[plain]
 
 
-def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> tuple[Ints, CellMesh, Ints, Ints]:
-    """Take the pieces of some pairs for cells; those that are no discs are left out.
+class _AsCells(NamedTuple):
+    """Some pieces as cells."""
 
-    Returns
-    -------
-    piece : (n,) int64, the piece that a cell is
-    cells : CellMesh
-    chosen : (m,) int64, its faces in the cut mesh
-    kept : (v,) int64, its vertices there
-    """
+    piece: Ints  # (n,), the piece that a cell is
+    cells: CellMesh
+    chosen: Ints  # (m,), its faces in the cut mesh
+    kept: Ints  # (v,), its vertices there
+
+
+def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> _AsCells:
+    """Take the pieces of some pairs for cells; those that are no discs are left out."""
     cut, piece = layout.cut, layout.piece_of_face
     wanted = np.zeros(len(discs), bool)
     wanted[pairs[discs[pairs].all(1)]] = True
@@ -114,7 +116,7 @@ def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> tuple[Ints, CellMesh
     cell = (np.cumsum(wanted) - 1)[piece[chosen]]
     mesh = Mesh(cut.V[kept], F)
     cells = CellMesh(mesh, cut.parent[chosen], cut.vertex_face[kept], cut.vertex_bary[kept], cell)
-    return np.flatnonzero(wanted), cells, chosen, kept
+    return _AsCells(np.flatnonzero(wanted), cells, chosen, kept)
 
 
 def _in_plane(layout: Layout, chosen: Ints) -> Floats:

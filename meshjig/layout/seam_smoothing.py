@@ -14,14 +14,14 @@ from meshjig.mesh.arrays import Bools, Ints
 from meshjig.mesh.halfedges import Edges, compact, edge_keys, edges, next_halfedge
 from meshjig.mesh.types import CutMesh
 
-__all__ = ["even_seams"]
+__all__ = ["smooth_seams"]
 
 TRIES = 3
 SHORTEST = 4  # edges: there is nothing to even out in less
 
 
-def even_seams(layout: Layout) -> tuple[Layout, Bools]:
-    """Draw the borders of pieces along seams anew, smoothly; a border that would break a piece stays.
+def smooth_seams(layout: Layout) -> tuple[Layout, Bools]:
+    """Draw the borders of pieces along seams again, smoothly; a border that would break a piece stays.
 
     Parameters
     ----------

@@ -1,14 +1,13 @@
 """Stitching: which regions of the cut surface become one piece."""
 
 import heapq
-from typing import Any
 
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.measure import face_areas, sums
-from meshjig.mesh.types import CutMesh, RegionGraph, Stitching
+from meshjig.mesh.types import CutMesh, RegionGraph, StitchFacts, Stitching
 
 __all__ = ["region_graph", "stitch"]
 
@@ -75,8 +74,6 @@ def stitch(
     Returns
     -------
     Stitching
-        facts: stitched (joins over seams), tiny_merged (pieces that joined a neighbour), tiny_left
-        (pieces too small, without any neighbour).
 
     References
     ----------
@@ -87,8 +84,7 @@ def stitch(
     merged, left = _merge_tiny(groups, smallest, set() if alone is None else set(alone.tolist()))
     roots = np.array([groups.root(r) for r in range(len(graph.area))], dtype=np.int64)
     piece = np.unique(roots, return_inverse=True)[1].astype(np.int64)
-    facts: dict[str, Any] = {"stitched": joins, "tiny_merged": merged, "tiny_left": left}
-    return Stitching(piece, facts)
+    return Stitching(piece, StitchFacts(joins, merged, left))
 
 
 def _without(graph: RegionGraph, regions: Ints | None) -> RegionGraph:

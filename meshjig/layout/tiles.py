@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
 from meshjig.cut import overlay
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.layout import Layout
-from meshjig.layout.necks.divide import divide_at_isthmuses
-from meshjig.layout.seam_knobs import knobs_over_seams
+from meshjig.layout.necks.divide import divide_at_necks
+from meshjig.layout.seam_knobs import add_seam_knobs
 from meshjig.layout.stitch import region_graph, stitch
 from meshjig.layout.tile_size import TileChoice, choose_tiles
 from meshjig.mesh.arrays import Ints
@@ -29,8 +29,8 @@ log = logging.getLogger("meshjig")
 
 WITHIN = 0.07  # of the wanted number of pieces; more off than that, the tiles are sized again
 TRIES = 3
-REDRAWN = 12  # times at most that knobs are drawn anew to make borders unlike each other
-THIN = 0.05  # of a tile's edge: what the gap leaves so thin, or half as thin as a wall, is an isthmus
+REDRAWN = 12  # times at most that knobs are drawn again to make borders unlike each other
+THIN = 0.05  # of a tile's edge: what the gap leaves so thin, or half as thin as a wall, is a neck
 DIFFERENT = 0.5  # how random tiles are at least when each has to be unique
 
 
@@ -47,13 +47,18 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     wanted, angle = options.pieces, options.angle
     tried: list[Layout] = []
     chosen: list[TileChoice] = []
-    least_border = options.min_neck + options.clearance
     for _ in range(TRIES):
         with stages("tiling"):
             choice = choose_tiles(
-                atlas, wanted, options.stitch, least_border, options.piece_size, unit=unit, angle=angle
+                atlas,
+                wanted,
+                options.stitch,
+                _least_border(options),
+                options.piece_size,
+                unit=unit,
+                angle=angle,
             )
-        layout = _cut(atlas, unit, choice, least_border, options, stages)
+        layout = _cut(atlas, unit, choice, options, stages)
         tried.append(layout)
         chosen.append(choice)
         n = layout.stitching.n_pieces
@@ -64,18 +69,18 @@ def tile_layout(atlas: Atlas, options: Options, stages: Stages) -> Layout:
     best = int(np.argmin([abs(layout.stitching.n_pieces - options.pieces) for layout in tried]))
     if not options.unique:
         return _finished(tried[best], options, stages)
-    return _without_clashes(tried[best], atlas, unit, chosen[best], least_border, options, stages)
+    return _without_clashes(tried[best], unit, chosen[best], options, stages)
 
 
 def _cut(
     atlas: Atlas,
     unit: Unit,
     choice: TileChoice,
-    least_border: float,
     options: Options,
     stages: Stages,
     turns: Ints | None = None,
 ) -> Layout:
+    least_border = _least_border(options)
     with stages("tiling"):
         tiling = tile_surface(
             atlas,
@@ -92,28 +97,31 @@ def _cut(
         capstones = np.unique(cut.region[np.isin(cut.label, tiling.capstones)])
         stitching = stitch(graph, options.stitch, choice.size**2, least_border, options.min_piece, capstones)
     if tiling.poles:
-        stitching = replace(
-            stitching, facts={**stitching.facts, "poles": [asdict(pole) for pole in tiling.poles]}
-        )
+        stitching = replace(stitching, facts=replace(stitching.facts, poles=tiling.poles))
     return Layout(atlas, tiling.outlines, tiling.knobs, cut, stitching)
 
 
 def _finished(layout: Layout, options: Options, stages: Stages, turn: int = 0) -> Layout:
     """Even out seams, give pieces that meet along them their knobs, and cut off what hangs on by little.
 
-    Knobs on seams are drawn anew at every turn.
+    Knobs on seams are drawn again at every turn.
     """
     if options.clearance_method == "domain":  # as published
         return layout
     with stages("seams"):
-        layout = knobs_over_seams(layout, options, _random(options), options.seed + turn)
+        layout = add_seam_knobs(layout, options, _random(options), options.seed + turn)
     if options.clearance_method != "solid":  # there the gap is a band along cuts and seams alone
         return layout
     with stages("stitch"):
         size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
-        isthmus = options.clearance + min(options.min_wall / 2, THIN * size)
-        cut, stitching = divide_at_isthmuses(layout.cut, layout.stitching, isthmus, options.min_piece)
+        narrowest = options.clearance + min(options.min_wall / 2, THIN * size)
+        cut, stitching = divide_at_necks(layout.cut, layout.stitching, narrowest, options.min_piece)
         return replace(layout, cut=cut, stitching=stitching)
+
+
+def _least_border(options: Options) -> float:
+    """Give the length of a border, mm, over which a join would be too weak: the gap takes some of it."""
+    return options.min_neck + options.clearance
 
 
 def _random(options: Options) -> float:
@@ -121,15 +129,9 @@ def _random(options: Options) -> float:
 
 
 def _without_clashes(
-    layout: Layout,
-    atlas: Atlas,
-    unit: Unit,
-    choice: TileChoice,
-    least_border: float,
-    options: Options,
-    stages: Stages,
+    layout: Layout, unit: Unit, choice: TileChoice, options: Options, stages: Stages
 ) -> Layout:
-    """Draw knobs anew for as long as borders look alike."""
+    """Draw knobs again for as long as borders look alike."""
     turns = np.zeros(0, np.int64)
     best, fewest = layout, np.inf
     for turn in range(REDRAWN):
@@ -137,13 +139,13 @@ def _without_clashes(
         with stages("unique"):
             edges, facts = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))
         log.info("unique: %s", facts)
-        if facts["congruent_borders"] < fewest:
-            best, fewest = layout, facts["congruent_borders"]
+        if facts.congruent_borders < fewest:
+            best, fewest = layout, facts.congruent_borders
         if not len(edges):
             break
         turns = np.concatenate([turns, np.zeros(max(0, int(edges.max()) + 1 - len(turns)), np.int64)])
         turns[edges] += 1
-        layout = _cut(atlas, unit, choice, least_border, options, stages, turns)
+        layout = _cut(layout.atlas, unit, choice, options, stages, turns)
     return best
 
 

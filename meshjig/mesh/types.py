@@ -20,6 +20,7 @@ __all__ = [
     "Outlines",
     "RegionGraph",
     "Scan",
+    "StitchFacts",
     "Stitching",
 ]
 
@@ -116,11 +117,25 @@ class RegionGraph:
 
 
 @dataclass(frozen=True)
+class StitchFacts:
+    """What the report says of how regions became pieces; None for what was not done."""
+
+    stitched: int = 0  # joins over seams
+    tiny_merged: int = 0  # pieces that joined a neighbour
+    tiny_left: int = 0  # pieces too small, without any neighbour
+    poles: list[Any] | None = None  # how each was closed
+    seam_borders: int | None = None  # borders that lie on seams
+    seam_knobs: int | None = None  # those that have a knob now
+    handed_over: int | None = None  # parts behind a neck that went to a neighbour
+    parted: int | None = None  # those that became pieces
+
+
+@dataclass(frozen=True)
 class Stitching:
     """Which regions make which piece."""
 
     piece_of_region: Ints  # (r,)
-    facts: dict[str, Any] = field(default_factory=dict)
+    facts: StitchFacts = field(default_factory=StitchFacts)
 
     @property
     def n_pieces(self) -> int:

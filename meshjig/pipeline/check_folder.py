@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -43,8 +44,9 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
     if missing:
         result["failures"]["missing"] = missing
     if core:
-        result["core"], broken = judge_core(
+        measured, broken = judge_core(
             core, pieces, clearance=asked["clearance"], exempt_pieces=asked["exempt_pieces"]
         )
+        result["core"] = asdict(measured)
         add_failures(result["failures"], broken)
     return result | {"ok": not result["failures"]}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from meshjig.layout.tiles import tile_layout
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
+from meshjig.mesh.pieces import Pieces, piece_names
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh, Scan
 from meshjig.options import Options
@@ -26,7 +28,7 @@ from meshjig.output.texture import coats
 from meshjig.pipeline.extras import add_core, core_of, finished
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
-from meshjig.pipeline.report import assemble_report
+from meshjig.pipeline.report import assemble_report, told
 from meshjig.pipeline.verify import judged
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
@@ -85,55 +87,47 @@ def make_puzzle(
             parts = _leave_gaps(layout, options)
         with stages("solid"):
             sheets, scan.facts["self_crossings"], crossing = beside.result()
-            solids, solid_facts = _solids(surface, layout, parts, sheets, options)
+            pieces, solid_facts = _solids(surface, layout, parts, sheets, options)
         with stages("finish"):
-            solids, label_facts = finished(solids, surface, sheets, options)
+            pieces, label_facts = finished(pieces, surface, sheets, options)
             core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
     except BaseException:
         beside.cancel()
         raise
     with stages("check"):
         locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
-        names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
-        exempt = [names[i] for i in sorted(affected)]
+        exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
-        solids, verdict, mended = judged(solids, names, neighbours, options, exempt)
+        pieces, verdict, mended = judged(replace(pieces, neighbours=neighbours), options, exempt)
         solid_facts["dented"] = mended["dented"]
         solid_facts["discarded_volume_share"] += mended["discarded"]
         on_surface = parts if options.clearance_method != "solid" else None
-        report = assemble_report(options, scan, layout, on_surface, locks, verdict, solids, solid_facts)
+        report = assemble_report(options, scan, layout, on_surface, locks, verdict, pieces, solid_facts)
         report["exempt_pieces"] = exempt
         if options.labels:
             report["labels"] = label_facts
         if options.core:
-            bodies = [(name, V, F) for name, (V, F) in zip(names, solids, strict=True)]
-            add_core(report, core, core_facts, bodies)
+            add_core(report, core, core_facts, pieces)
     if options.unique:
-        report["unique"] = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1]
+        report["unique"] = told(clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1])
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
-    tints, outward = colours(len(solids), locks.pairs), _outer_normals(layout)
-    pieces = _named(solids, names, tints, outward, scan, options)
-    report["material"] = estimate(pieces, options.process)
+    tints, outward = colours(len(pieces), locks.pairs), _outer_normals(layout)
+    dressed = _dressed(pieces, tints, outward, scan, options)
+    report["material"] = estimate(dressed, options.process)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
-    return Puzzle(pieces, report, curves, core)
+    return Puzzle(dressed, report, curves, core)
 
 
-def _named(
-    solids: list[tuple[Floats, Ints]],
-    names: list[str],
-    tints: Floats,
-    outward: Floats,
-    scan: Scan,
-    options: Options,
-) -> list[Piece]:
-    """Give solids their names, their colours, and the picture of the scan where it has one."""
+def _dressed(pieces: Pieces, tints: Floats, outward: Floats, scan: Scan, options: Options) -> list[Piece]:
+    """Give pieces their colours, and the picture of the scan where it has one."""
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
+    solids = [(V, F) for V, F in pieces]
     dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
         Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
-        for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
+        for i, (name, (V, F), tint) in enumerate(zip(pieces.names, solids, tints.tolist(), strict=True))
     ]
 
 
@@ -197,11 +191,12 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
 
 def _solids(
     surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
-) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+) -> tuple[Pieces, dict[str, Any]]:
     """Give the pieces their thickness."""
     cut = parts.cut
     outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
-    facts["discarded_volume_share"] += parts.discarded
-    return made, {**sheets.facts, **facts}
+    report = told(sheets.facts) | told(facts)
+    report["discarded_volume_share"] += parts.discarded
+    return Pieces(tuple(piece_names(len(made))), tuple(made)), report

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -12,10 +13,11 @@ from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout, Parts
 from meshjig.layout.outer_gap import outer_gap
 from meshjig.mesh.measure import face_areas, mesh_volume, sums
-from meshjig.mesh.types import Floats, Ints, Scan
+from meshjig.mesh.pieces import Pieces
+from meshjig.mesh.types import Floats, Scan
 from meshjig.options import Options
 
-__all__ = ["assemble_report", "meshjig_version"]
+__all__ = ["assemble_report", "meshjig_version", "told"]
 
 MOST_AREA_ERROR = 1e-6
 MOST_DISCARDED = 1e-3
@@ -29,6 +31,11 @@ def meshjig_version() -> str:
         return "unknown"
 
 
+def told(facts: Any) -> dict[str, Any]:
+    """Give the fields of a stage's facts as the report has them: those that are known."""
+    return {key: fact for key, fact in asdict(facts).items() if fact is not None}
+
+
 def assemble_report(
     options: Options,
     scan: Scan,
@@ -36,14 +43,14 @@ def assemble_report(
     on_surface: Parts | None,
     locks: Interlock,
     verdict: Verdict,
-    solids: list[tuple[Floats, Ints]],
+    pieces: Pieces,
     solid_facts: dict[str, Any],
 ) -> dict[str, Any]:
     """Put together what report.json holds, but for timings and memory.
 
     Parameters
     ----------
-    options, scan, layout, locks, verdict, solids
+    options, scan, layout, locks, verdict, pieces
         What the stages made.
     on_surface : Parts or None
         The surface as it was cut with the gap; None where the gap was taken from the solids.
@@ -77,12 +84,11 @@ def assemble_report(
         "charts" if layout.cells is None else "cells": layout.atlas.facts
         | ({} if layout.cells is None else layout.cells.facts),
         "cut": cut.facts,
-        "stitching": layout.stitching.facts,
+        "stitching": told(layout.stitching.facts),
         "solid": solid_facts,
-        "pieces": _pieces(n, area, solids, locks, options),
+        "pieces": _pieces(n, area, pieces, locks, options),
         "checks": checks,
-        "names": verdict.named
-        | {"thin_necks": [f"piece_{i + 1:03d}" for i in locks.thin_necked(least_neck)]},
+        "names": verdict.named | {"thin_necks": [pieces.names[i] for i in locks.thin_necked(least_neck)]},
         "failures": failures,
         "exempt": verdict.exempt,
         "ok": verdict.ok and len(failures) == len(verdict.failures),
@@ -95,9 +101,7 @@ def _broken_as_a_whole(checks: dict[str, Any]) -> dict[str, list[str]]:
     return {promise: [] for promise, limit in most.items() if checks[promise] > limit}
 
 
-def _pieces(
-    n: int, area: Floats, solids: list[tuple[Floats, Ints]], locks: Interlock, options: Options
-) -> list[dict[str, Any]]:
+def _pieces(n: int, area: Floats, solids: Pieces, locks: Interlock, options: Options) -> list[dict[str, Any]]:
     neighbours: list[list[int]] = [[] for _ in range(n)]
     knobs = np.zeros(n, np.int64)
     facing = locks.faces_other(options.clearance, options.min_wall)

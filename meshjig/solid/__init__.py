@@ -1,7 +1,7 @@
 """From a labelled surface to solid pieces."""
 
 from meshjig.solid.directions import miter_directions
-from meshjig.solid.enforce_gap import keep_apart
+from meshjig.solid.enforce_gap import enforce_gap
 from meshjig.solid.kerf import kerf
 from meshjig.solid.offset_sheet import check_thickness, displacement
 from meshjig.solid.shell import Shell, shell
@@ -15,7 +15,7 @@ __all__ = [
     "Solid",
     "check_thickness",
     "displacement",
-    "keep_apart",
+    "enforce_gap",
     "kerf",
     "miter_directions",
     "shell",

@@ -85,7 +85,7 @@ def _carved_with_care(
     if tried.state == "rounded":
         return tried
     for width in range(1, _MENDS + 1):
-        repaired = mended(solid, width)
+        repaired = repair(solid, width)
         if repaired is None:
             break
         tried = _carved(repaired, parts, "mended")
@@ -123,7 +123,7 @@ def _crosses(piece: Carved) -> bool:
     return bool((crossing_pairs(piece.V, piece.F)[1] > _DEPTH).any())
 
 
-def mended(solid: Solid, width: int) -> Body | None:
+def repair(solid: Solid, width: int) -> Body | None:
     """Replace the folded part of a piece by a union of prisms, one under each outer face.
 
     Parameters

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, largest, sound
+from meshjig.mesh.mesh import Mesh
 from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.cutters import ball
 
-__all__ = ["keep_apart"]
+__all__ = ["enforce_gap"]
 
 _ENOUGH = 0.97  # of the clearance
 _WANTED = 0.995
@@ -22,11 +25,9 @@ _MOST_DENTS = 400
 # weights of a triangle's corners that give points all over it
 _SPREAD = np.array([(a, b, 4 - a - b) for a in range(5) for b in range(5 - a)]) / 4
 
-Piece = tuple[Floats, Ints]
 
-
-def keep_apart(
-    pieces: dict[int, Piece], pairs: Ints, clearance: float
+def enforce_gap(
+    pieces: Mapping[int, Mesh | tuple[Floats, Ints]], pairs: Ints, clearance: float
 ) -> dict[int, tuple[Floats, Ints, float]]:
     """Dent pieces where a neighbour is nearer than the gap, whatever the reason.
 

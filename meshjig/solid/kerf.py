@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.booleans import share_cores
 from meshjig.mesh.measure import mesh_volume, sums
+from meshjig.mesh.mesh import Mesh
 from meshjig.runtime.worker import Background
 from meshjig.solid.border_chains import border_chains
 from meshjig.solid.carve_gap import Carved, carve
@@ -17,11 +19,29 @@ from meshjig.solid.solidify import solidify
 from meshjig.solid.wall_edges import split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
 
-__all__ = ["kerf"]
+__all__ = ["KerfFacts", "kerf"]
 
 _WORTH_A_CHILD = 20_000  # faces
 _OWN_SHARE = 0.48  # of the faces; the caller also takes what the child has made
-_NO_WALLS = {"segments": 0, "rounded": 0, "hulls": 0}
+
+
+@dataclass(frozen=True)
+class KerfFacts:
+    """What the report says of how the solids and their gap were made; pieces by their number."""
+
+    raised: int  # see SolidCounts
+    pinches: int
+    nudged: int
+    shrunk: int
+    segments: int  # quads of wall
+    rounded: int  # joints too sharp for a miter
+    hulls: int  # quads too twisted for a slab
+    discarded_volume_share: float  # of what came off
+    split: list[int]  # pieces that lost parts by that
+    taken_apart: list[int]  # pieces whose slabs had to be
+    mended: list[int]  # pieces whose folds had to be repaired
+    crossing: list[int]  # pieces for which that failed
+    uncut: list[int]
 
 
 def kerf(
@@ -31,7 +51,7 @@ def kerf(
     D: Floats,
     clearance: float,
     wall: Floats | None = None,
-) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
+) -> tuple[list[Mesh], KerfFacts]:
     """Give pieces their thickness, and leave a gap of constant width between them.
 
     The surface is cut at zero width. Along every border the wall is thickened by half the gap to both
@@ -50,16 +70,12 @@ def kerf(
 
     Returns
     -------
-    solids : list of (V, F), by piece number, closed and in one part; a number without faces has none
-    facts : dict
-        Those of `solidify`; "discarded_volume_share" and "split": the pieces that lost parts by it;
-        "segments": quads of wall; "rounded": joints too sharp for a miter; "hulls": quads too twisted for
-        one; "taken_apart", "mended": pieces whose slabs or folds had to be repaired;
-        "crossing", "uncut": pieces for which that failed, by number.
+    solids : list of Mesh, by piece number, closed and in one part; a number without faces has none
+    facts : KerfFacts
 
     Notes
     -----
-    On a straight way between two pieces there is a point of their common wall, or one of each's wall with a
+    On a straight path between two pieces there is a point of their common wall, or one of each's wall with a
     third piece; a piece keeps half the gap from all of its walls.
     """
     if wall is not None:
@@ -80,13 +96,13 @@ def kerf(
             child.cancel()
             raise
         carved |= others
-        counted = {key: number + more[key] for key, number in counted.items()}
+        counted = [a + b for a, b in zip(counted, more, strict=True)]
     empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
-    solids = [carved[i][:2] if i in carved else empty for i in range(len(first))]
-    return solids, counted | _counts(carved)
+    solids = [Mesh(*(carved[i][:2] if i in carved else empty)) for i in range(len(first))]
+    return solids, _facts(counted, carved)
 
 
-def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], dict[str, int]]:
+def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], list[int]]:
     """Make some of the pieces while the caller makes the others."""
     share_cores(second=True)
     return _carved(*asked)
@@ -94,8 +110,8 @@ def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], dict[str, int]]:
 
 def _carved(
     V: Floats, F: Ints, piece: Ints, D: Floats, clearance: float, chosen: Bools
-) -> tuple[dict[int, Carved], dict[str, int]]:
-    """Make some of the pieces, and count what was met on the way."""
+) -> tuple[dict[int, Carved], list[int]]:
+    """Make some of the pieces, and count what was met meanwhile, as the first of KerfFacts."""
     if clearance > 0:
         V, F, piece, D = split_bent_walls(V, F, piece, D, most_bend(clearance))
     label = np.append(np.where(chosen, np.arange(len(chosen)), -1), -1)[piece]
@@ -103,34 +119,39 @@ def _carved(
     made = {i: solid for i, solid in enumerate(solids) if len(solid.F)}
     chains = border_chains(F, piece)
     if clearance == 0 or not len(chains.pair):
-        return {i: Carved(s.V, s.F, 0.0, 0, "clean") for i, s in made.items()}, counts | _NO_WALLS
+        return {i: Carved(s.V, s.F, 0.0, 0, "clean") for i, s in made.items()}, [*counts, 0, 0, 0]
     strip, line = wall_strip(V, D, F, chains, clearance)
     strip, pair = _around(chosen, strip, chains.pair[line])
     offsets = mitered(strip, clearance / 2)
     mine = chosen[pair[:, 0]]  # quads between the halves are met twice
-    counts |= {
-        "segments": int(mine.sum()),
-        "rounded": int((mine & (strip.after >= 0) & (offsets.after < 0)).sum()),
-        "hulls": int((mine & offsets.failed).sum()),
-    }
-    return carve(made, strip, offsets, pair, clearance), counts
+    sharp = (strip.after >= 0) & (offsets.after < 0)
+    met = [int((mine & some).sum()) for some in (mine, sharp, offsets.failed)]
+    return carve(made, strip, offsets, pair, clearance), [*counts, *met]
 
 
-def _counts(carved: dict[int, Carved]) -> dict[str, Any]:
+def _facts(counted: list[int], carved: dict[int, Carved]) -> KerfFacts:
     lost = sum(piece.lost for piece in carved.values())
     volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
 
     def those(state: str) -> list[int]:
         return sorted(i for i, piece in carved.items() if piece.state == state)
 
-    return {
-        "discarded_volume_share": lost / max(lost + volume, 1e-300),
-        "split": sorted(i for i, piece in carved.items() if piece.parts),
-        "taken_apart": those("rounded"),
-        "mended": those("mended"),
-        "crossing": those("crosses"),
-        "uncut": those("uncut"),
-    }
+    raised, pinches, nudged, shrunk, segments, rounded, hulls = counted
+    return KerfFacts(
+        raised,
+        pinches,
+        nudged,
+        shrunk,
+        segments,
+        rounded,
+        hulls,
+        discarded_volume_share=lost / max(lost + volume, 1e-300),
+        split=sorted(i for i, piece in carved.items() if piece.parts),
+        taken_apart=those("rounded"),
+        mended=those("mended"),
+        crossing=those("crosses"),
+        uncut=those("uncut"),
+    )
 
 
 def _first_half(V: Floats, F: Ints, piece: Ints) -> Bools:

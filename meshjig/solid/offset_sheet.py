@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -13,11 +14,11 @@ from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.mesh.smoothing import Smoother
 from meshjig.solid.directions import smooth_normals
 from meshjig.solid.local_thickness import inward_room, thin_share
-from meshjig.solid.rounded_join import rounded
+from meshjig.solid.rounded_join import JoinFacts, rounded
 from meshjig.solid.surface_distance import SurfaceDistance
-from meshjig.solid.untangle_sheet import unfold
+from meshjig.solid.untangle_sheet import FoldFacts, untangle_sheet
 
-__all__ = ["check_thickness", "displacement", "laid", "thinness"]
+__all__ = ["ShellFacts", "check_thickness", "displacement", "offset_sheet", "thinness"]
 
 _POSITION_SCALE = 0.3  # of the thickness: bumps below it are not carried to the inner sheet
 _LEAST_ROOM = 0.15  # mm; a wall is not planned thinner
@@ -29,9 +30,46 @@ _CROWDED = 1 / 3  # share of the area that may be thin
 _THIN = 0.8  # of the thickness
 
 
+class ThinFacts(NamedTuple):
+    """Where walls came out too thin."""
+
+    thin_area_share: float  # of the area, that is under 0.8 of the thickness
+    min_thickness: float  # mm
+    thinnest_at: list[float]  # x, y, z
+
+
+@dataclass(frozen=True)
+class ShellFacts:
+    """What the report says of the shell."""
+
+    side: str
+    join: str
+    thin_area_share: float  # see ThinFacts
+    min_thickness: float
+    thinnest_at: list[float]
+    join_method: str  # see JoinFacts
+    join_cell: float | None
+    joined_share: float | None
+    folds_left: int  # see FoldFacts
+    crossings_left: int
+    outer_crossings: int
+    rounds: int
+
+
+class SheetFacts(NamedTuple):
+    """How one sheet was made."""
+
+    joined: JoinFacts
+    folds: FoldFacts
+
+    def told(self, side: str, join: str, thin: ThinFacts) -> ShellFacts:
+        """Give what the report says of a shell whose only sheet, or first, it is."""
+        return ShellFacts(side, join, *thin, *self.joined, *self.folds)
+
+
 def displacement(
     V: Floats, F: Ints, thickness: float, *, join: Literal["miter", "round"] = "miter"
-) -> tuple[Floats, dict[str, Any]]:
+) -> tuple[Floats, ShellFacts]:
     """Lay an inner sheet under a surface.
 
     Directions are normals averaged over the thickness, positions those of a slightly smoothed copy of the
@@ -49,10 +87,7 @@ def displacement(
     Returns
     -------
     D : (n, 3) float64, mm; V + D is the inner sheet
-    facts : dict
-        "thin_area_share", "min_thickness" and "thinnest_at" as in `thinness`; "join_method": str, how creases
-        were joined; "folds_left": faces whose inner side still flips or crosses, "crossings_left": those that
-        cross, "outer_crossings" and "rounds" as in `unfold`.
+    facts : ShellFacts
 
     Raises
     ------
@@ -64,13 +99,13 @@ def displacement(
     Linear in the mesh. Sheets that don't cross keep the sheets of every piece apart; its walls, ruled along
     D, may still cut into them where the surface overhangs and D leans.
     """
-    D, distance, facts = laid(V, F, thickness, join)
-    return D, thinness(V, F, distance, thickness) | facts
+    D, distance, facts = offset_sheet(V, F, thickness, join)
+    return D, facts.told("in", join, thinness(V, F, distance, thickness))
 
 
-def laid(
+def offset_sheet(
     V: Floats, F: Ints, thickness: float, join: Literal["miter", "round"]
-) -> tuple[Floats, Floats, dict[str, Any]]:
+) -> tuple[Floats, Floats, SheetFacts]:
     """Lay an inner sheet; give D, how far V + D is from the surface (n,), and facts."""
     smoother = Smoother(V, F)
     d = smooth_normals(V, F, smoother, thickness)
@@ -82,16 +117,16 @@ def laid(
     for _ in range(_CORRECTIONS):
         lack = depth - gauge.read(D, _EXACT * thickness)[0]
         D = _corrected(D, d, lack, room, thickness, smoother)
-    facts: dict[str, Any] = {"join_method": "plane distances"}
+    joined = JoinFacts("plane distances")
     if join == "round":
-        exact, facts = rounded(V, F, D, thickness, gauge.surface)
+        exact, joined = rounded(V, F, D, thickness, gauge.surface)
         D = np.where(depth[:, None] > 0.99 * thickness, exact, D)
     distance = gauge.read(D, _EXACT * thickness)[1] - _EXACT * thickness
-    D, folds = unfold(V, F, D, thickness, distance)
+    D, folds = untangle_sheet(V, F, D, thickness, distance)
     distance = gauge.read(D, _EXACT * thickness)[1]
-    if folds["crossings_left"] > _HOPELESS * len(F) and not folds["outer_crossings"]:
+    if folds.crossings_left > _HOPELESS * len(F) and not folds.outer_crossings:
         _refuse_crowds(V, F, thickness, room, distance)
-    return D, distance, facts | folds
+    return D, distance, SheetFacts(joined, folds)
 
 
 def _refuse_crowds(V: Floats, F: Ints, thickness: float, room: Floats, distance: Floats) -> None:
@@ -122,7 +157,7 @@ class _Gauge:
         return self._depth.copy(), self._distance.copy()
 
 
-def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> dict[str, Any]:
+def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> ThinFacts:
     """Say how much of the area is too thin, how thin, and where.
 
     Parameters
@@ -134,15 +169,11 @@ def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> dict[str
 
     Returns
     -------
-    {"thin_area_share": share of the area under 0.8 of the thickness, "min_thickness": mm,
-        "thinnest_at": [x, y, z]}
+    ThinFacts
     """
     least = int(distance.argmin())
-    return {
-        "thin_area_share": thin_share(V, F, distance < _THIN * thickness),
-        "min_thickness": float(distance[least]),
-        "thinnest_at": V[least].tolist(),
-    }
+    share = thin_share(V, F, distance < _THIN * thickness)
+    return ThinFacts(share, float(distance[least]), V[least].tolist())
 
 
 def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:

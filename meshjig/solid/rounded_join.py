@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.rays import RayScene
 from meshjig.solid.surface_distance import SurfaceDistance
 
-__all__ = ["rounded"]
+__all__ = ["JoinFacts", "rounded"]
 
 _CELLS_A_THICKNESS = 2
 _MAX_CELLS = 150  # along the longest side; twice as many take eight times as long
@@ -19,9 +19,17 @@ _REACH = 0.45  # of the thickness, how far a vertex is carried
 _POLISH = 2
 
 
+class JoinFacts(NamedTuple):
+    """How offset creases were joined."""
+
+    join_method: str
+    join_cell: float | None = None  # mm, edge of a cell of the grid
+    joined_share: float | None = None  # share of the vertices
+
+
 def rounded(
     V: Floats, F: Ints, D: Floats, thickness: float, surface: SurfaceDistance
-) -> tuple[Floats, dict[str, Any]]:
+) -> tuple[Floats, JoinFacts]:
     """Carry an inner sheet to the offset surface of a closed mesh, along D.
 
     Parameters
@@ -35,7 +43,7 @@ def rounded(
     Returns
     -------
     D : (n, 3) float64, mm; unchanged where the offset surface is out of reach, since the model lacks the room
-    facts : {"join_method": str, "join_cell": edge of a grid cell, mm, "joined_share": share of the vertices}
+    facts : JoinFacts
 
     Notes
     -----
@@ -49,7 +57,7 @@ def rounded(
         away = target[found] - foot
         target[found] = foot + away * (thickness / np.maximum(distance, 1e-9))[:, None]
     reached = found & (np.linalg.norm(target - V - D, axis=1) < 2 * _REACH * thickness)
-    facts = {"join_method": "libigl offset_surface", "join_cell": cell, "joined_share": float(reached.mean())}
+    facts = JoinFacts("libigl offset_surface", cell, float(reached.mean()))
     return np.where(reached[:, None], target - V, D), facts
 
 

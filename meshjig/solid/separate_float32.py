@@ -8,14 +8,14 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import unit
 
-__all__ = ["pull_fans_apart", "pull_inner_apart"]
+__all__ = ["separate_fans", "separate_inner"]
 
 _APART = 1e-4  # mm; float32 resolves 1.5e-5 mm at 150 mm
 _PINCH = 4e-3  # mm, how far the sides of a pinch move into the piece
 _ROUNDS = 8
 
 
-def pull_fans_apart(X: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
+def separate_fans(X: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
     """Move vertices of one piece that stand in one place into the fans they belong to.
 
     Such are the copies of a pinch vertex, and what a repair has split before.
@@ -48,7 +48,7 @@ def pull_fans_apart(X: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
     return X, int(copy.sum())
 
 
-def pull_inner_apart(X: Floats, Y: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
+def separate_inner(X: Floats, Y: Floats, F: Ints, owner: Ints) -> tuple[Floats, int]:
     """Move inner vertices that fall together with another vertex of their piece.
 
     Ends of a collapsed edge move apart along the outer edge; other coincidences are resolved by

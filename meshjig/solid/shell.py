@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from meshjig.errors import SolidError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges
-from meshjig.solid.offset_sheet import laid, thinness
+from meshjig.solid.offset_sheet import ShellFacts, offset_sheet, thinness
+from meshjig.solid.untangle_sheet import FoldFacts
 
 __all__ = ["Shell", "shell"]
-
-_COUNTS = ("folds_left", "crossings_left", "outer_crossings", "rounds")
 
 
 @dataclass(frozen=True)
@@ -23,7 +22,7 @@ class Shell:
 
     outer: Floats  # (n, 3), mm
     D: Floats  # (n, 3), mm
-    facts: dict[str, Any] = field(default_factory=dict)
+    facts: ShellFacts
 
 
 def shell(
@@ -49,7 +48,6 @@ def shell(
     Returns
     -------
     Shell
-        Its facts are "side", "join", and those of `displacement`.
 
     Raises
     ------
@@ -69,13 +67,12 @@ def shell(
     walls = []
     share = 0.5 if side == "both" else 1.0
     if side != "out":
-        walls.append((1.0, *laid(V, F, share * thickness, join)))
+        walls.append((1.0, *offset_sheet(V, F, share * thickness, join)))
     if side != "in":
-        walls.append((-1.0, *laid(V, F[:, ::-1], share * thickness, join)))
+        walls.append((-1.0, *offset_sheet(V, F[:, ::-1], share * thickness, join)))
     D = sum((sign * step for sign, step, _, _ in walls), np.zeros_like(V))
     outer = V if side == "in" else V + walls[-1][1]
     distance = sum((reach for _, _, reach, _ in walls), np.zeros(len(V)))
-    facts = walls[0][3]
-    for key in _COUNTS:
-        facts[key] = sum(wall[3][key] for wall in walls)
-    return Shell(outer, D, {"side": side, "join": join} | thinness(V, F, distance, thickness) | facts)
+    folds = FoldFacts(*(sum(counts) for counts in zip(*(wall[3].folds for wall in walls), strict=True)))
+    facts = walls[0][3]._replace(folds=folds).told(side, join, thinness(V, F, distance, thickness))
+    return Shell(outer, D, facts)

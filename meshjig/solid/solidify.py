@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,9 +10,9 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.solid.separate_float32 import pull_fans_apart, pull_inner_apart
+from meshjig.solid.separate_float32 import separate_fans, separate_inner
 
-__all__ = ["INNER", "LEAST_MM", "OUTER", "WALL", "Solid", "solidify"]
+__all__ = ["INNER", "LEAST_MM", "OUTER", "WALL", "Solid", "SolidCounts", "solidify"]
 
 OUTER, INNER, WALL = 0, 1, 2
 LEAST_MM = 0.05  # mm, the thinnest a piece may get anywhere
@@ -27,7 +27,22 @@ class Solid(NamedTuple):
     kind: Ints  # (m,), OUTER, INNER or WALL
 
 
-def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[Solid], dict[str, Any]]:
+class SolidCounts(NamedTuple):
+    """What had to be changed."""
+
+    raised: int  # vertices whose D was too short
+    pinches: int  # vertices moved because a piece touched itself there
+    nudged: int  # inner vertices moved because they fell together
+    shrunk: int  # pieces made thinner to keep a positive volume
+
+
+class _Faces(NamedTuple):
+    corners: Ints  # (m, 3), into the outer vertices of all pieces and then the inner ones
+    kind: Ints  # (m,)
+    piece: Ints  # (m,)
+
+
+def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[Solid], SolidCounts]:
     """Give every piece of a surface its thickness, all pieces at once.
 
     Parameters
@@ -40,13 +55,11 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     Returns
     -------
     solids : list of Solid, by piece number; a number without faces has an empty one
-    facts : dict of counts; {"raised": vertices whose D was too short, "pinches": vertices moved because a
-        piece touched itself there, "nudged": inner vertices moved because they fell together, "shrunk":
-        pieces made thinner to keep a positive volume}
+    counts : SolidCounts
 
     Notes
     -----
-    Each solid is closed and consistently oriented, and connected when its faces hang together over edges;
+    Each solid is closed and consistently oriented, and connected when its faces are connected over edges;
     vertices that differ still differ as float32, as files store them. A vertex at which a piece only touches
     itself is split and the sides are moved apart by some micrometres. Walls shared by two pieces are split
     along the same diagonal.
@@ -56,17 +69,17 @@ def solidify(V: Floats, F: Ints, piece_of_face: Ints, D: Floats) -> tuple[list[S
     kept = kept[np.argsort(piece_of_face[kept], kind="stable")]
     label = piece_of_face[kept]
     G, source, owner = _vertices_of_pieces(F[kept], label, len(V))
-    X, pinches = pull_fans_apart(V[source], G, owner)
+    X, pinches = separate_fans(V[source], G, owner)
     step, raised = _at_least(D[source], X, G)
     border = _border(G)
     walls_of = label[border[:, 2]]
-    Y, nudged = pull_inner_apart(X, X + step, G, owner)
+    Y, nudged = separate_inner(X, X + step, G, owner)
     corners = np.concatenate([G, G[:, ::-1] + len(X), _walls(X, Y, border[:, :2], source)])
     kind = np.repeat([OUTER, INNER, WALL], [len(G), len(G), 2 * len(border)])
-    piece = np.concatenate([label, label, walls_of, walls_of])
-    Y, shrunk = _with_volume(X, Y, corners, piece, owner, n_pieces)
-    solids = _apart(X, Y, corners, kind, piece, owner, n_pieces)
-    return solids, {"raised": raised, "pinches": pinches, "nudged": nudged, "shrunk": shrunk}
+    faces = _Faces(corners, kind, np.concatenate([label, label, walls_of, walls_of]))
+    Y, shrunk = _with_volume(X, Y, faces, owner, n_pieces)
+    solids = _apart(X, Y, faces, owner, n_pieces)
+    return solids, SolidCounts(raised, pinches, nudged, shrunk)
 
 
 def _vertices_of_pieces(F: Ints, label: Ints, n: int) -> tuple[Ints, Ints, Ints]:
@@ -116,14 +129,12 @@ def _walls(X: Floats, Y: Floats, border: Ints, source: Ints) -> Ints:
     return np.concatenate([first, second])
 
 
-def _with_volume(
-    X: Floats, Y: Floats, corners: Ints, piece: Ints, owner: Ints, n_pieces: int
-) -> tuple[Floats, int]:
+def _with_volume(X: Floats, Y: Floats, faces: _Faces, owner: Ints, n_pieces: int) -> tuple[Floats, int]:
     """Halve the thickness of pieces whose inner sheet has turned them inside out."""
     shrunk = np.zeros(n_pieces, bool)
-    has_faces = np.bincount(piece, minlength=n_pieces) > 0
+    has_faces = np.bincount(faces.piece, minlength=n_pieces) > 0
     for _ in range(_HALVINGS):
-        bad = has_faces & (_volumes(np.concatenate([X, Y]), corners, piece, n_pieces) <= 0)
+        bad = has_faces & (_volumes(np.concatenate([X, Y]), faces.corners, faces.piece, n_pieces) <= 0)
         if not bad.any():
             break
         shrunk |= bad
@@ -137,16 +148,14 @@ def _volumes(V: Floats, F: Ints, piece: Ints, n_pieces: int) -> Floats:
     return np.bincount(piece, cones, n_pieces).astype(np.float64)
 
 
-def _apart(
-    X: Floats, Y: Floats, corners: Ints, kind: Ints, piece: Ints, owner: Ints, n_pieces: int
-) -> list[Solid]:
-    order = np.argsort(piece, kind="stable")
-    corners, kind = corners[order], kind[order]
-    face_at = np.searchsorted(piece[order], np.arange(n_pieces + 1))
+def _apart(X: Floats, Y: Floats, faces: _Faces, owner: Ints, n_pieces: int) -> list[Solid]:
+    order = np.argsort(faces.piece, kind="stable")
+    corners, kind, piece = (x[order] for x in faces)
+    face_at = np.searchsorted(piece, np.arange(n_pieces + 1))
     vertex_at = np.searchsorted(owner, np.arange(n_pieces + 1))
     inner = corners >= len(X)
     local = np.where(inner, corners - len(X), corners)
-    start, count = vertex_at[:-1][piece[order]], np.diff(vertex_at)[piece[order]]
+    start, count = vertex_at[:-1][piece], np.diff(vertex_at)[piece]
     local = local - start[:, None] + inner * count[:, None]
     solids = []
     for i in range(n_pieces):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,9 +12,9 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.solid.crossing_pairs import at_any_corner, cell_size, crossing_pairs, near
 from meshjig.solid.directions import visible_directions
-from meshjig.solid.vertex_patches import Patches, part_around
+from meshjig.solid.vertex_patches import VertexPatches, submesh_around
 
-__all__ = ["flipped", "unfold"]
+__all__ = ["FoldFacts", "flipped", "untangle_sheet"]
 
 _FLIP_ROUNDS = 4  # rounds that look at flips alone, which are cheap to find
 _SMOOTH_ROUNDS = 9  # rounds that smooth; later ones retreat towards the outer sheet
@@ -23,9 +25,18 @@ _PART = 4.0  # of the thickness: how far around a bad face the sheet may move or
 _SHORTEST = 0.06  # mm, where retreating ends
 
 
-def unfold(
+class FoldFacts(NamedTuple):
+    """What untangling has left, and how long it took."""
+
+    folds_left: int  # faces that still flip or cross
+    crossings_left: int  # those that cross
+    outer_crossings: int  # faces near crossings at which the outer sheet itself crosses
+    rounds: int
+
+
+def untangle_sheet(
     V: Floats, F: Ints, D: Floats, thickness: float, clear: Floats | None = None
-) -> tuple[Floats, dict[str, Any]]:
+) -> tuple[Floats, FoldFacts]:
     """Move an inner sheet until it neither flips nor crosses itself or the outer sheet.
 
     Parameters
@@ -39,8 +50,7 @@ def unfold(
     Returns
     -------
     D : (n, 3) float64
-    facts : {"folds_left": faces that still flip or cross, "crossings_left": those that cross,
-        "outer_crossings": faces near crossings at which the outer sheet itself crosses, "rounds": int}
+    facts : FoldFacts
 
     Notes
     -----
@@ -53,35 +63,50 @@ def unfold(
 
     The whole sheet is looked at once; rounds then work on the part around what is bad.
     """
-    m, cell = len(F), cell_size(V, F, thickness)
-    both = np.concatenate([F, F + len(V)])
+    outer = _Outer(V, F, thickness, np.zeros(len(F), bool), np.zeros(len(V), bool))
     start = D
-    D, rounds = _settled(V, F, D, flipped(V, F, D), None, np.zeros(m, bool), thickness, 0)
+    D, rounds = _settled(outer, D, flipped(V, F, D), None, 0)
     clear = np.where((start != D).any(1), 0.0, 0.0 if clear is None else clear)
-    pairs, hopeless = _listed(V, V + D, F, clear, cell)
+    pairs, hopeless = _listed(outer, V + D, clear)
+    outer = replace(outer, hopeless=hopeless)
     for _ in range(_PASSES):
         hit, flips = _hit(pairs, hopeless), flipped(V, F, D)
         bad = hit | (flips & (rounds < _SMOOTH_ROUNDS))
         if not bad.any() or rounds >= _MAX_ROUNDS:
             break
         before = D
-        D, rounds = _settled(V, F, D, bad, pairs, hopeless, thickness, rounds)
+        D, rounds = _settled(outer, D, bad, pairs, rounds)
         changed = at_any_corner((before != D).any(1), F)
-        pairs = _renewed(V, V + D, both, pairs, changed, cell)
+        pairs = _renewed(outer, V + D, pairs, changed)
     hit, flips = _hit(pairs, hopeless), flipped(V, F, D)
-    facts = {
-        "folds_left": int((flips | hit).sum()),
-        "crossings_left": int(hit.sum()),
-        "outer_crossings": int(hopeless.sum()),
-        "rounds": rounds,
-    }
-    return D, facts
+    return D, FoldFacts(int((flips | hit).sum()), int(hit.sum()), int(hopeless.sum()), rounds)
 
 
-def _listed(V: Floats, inner: Floats, F: Ints, clear: Floats, cell: float) -> tuple[Ints, Bools]:
+@dataclass(frozen=True)
+class _Outer:
+    """The outer sheet, or a part of it."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    thickness: float  # mm
+    hopeless: Bools  # (m,), faces that cross themselves
+    held: Bools  # (n,), vertices whose D stays
+
+    @cached_property
+    def both(self) -> Ints:
+        """The faces of both sheets, those of the inner one after the outer ones', (2 m, 3)."""
+        return np.concatenate([self.F, self.F + len(self.V)])
+
+    @cached_property
+    def cell(self) -> float:
+        """The edge of a box, mm, that all but a few faces fit into."""
+        return cell_size(self.V, self.F, self.thickness)
+
+
+def _listed(outer: _Outer, inner: Floats, clear: Floats) -> tuple[Ints, Bools]:
     """List all crossings of the inner sheet, and mark the faces around them that cross on the outer sheet."""
-    m = len(F)
-    X, both = np.concatenate([V, inner]), np.concatenate([F, F + len(V)])
+    V, F, both, cell, m = outer.V, outer.F, outer.both, outer.cell, len(outer.F)
+    X = np.concatenate([V, inner])
     close = np.concatenate([np.zeros(m, bool), clear[F].min(1) <= _longest_edges(inner, F)])
     some = np.flatnonzero(np.concatenate([near(X, both, close, cell)[:m], np.ones(m, bool)]))
     pairs = some[crossing_pairs(X, both[some])[0]]
@@ -99,48 +124,29 @@ def _longest_edges(V: Floats, F: Ints) -> Floats:
     return np.sqrt(((corner - corner[:, [1, 2, 0]]) ** 2).sum(2).max(1))
 
 
-def _settled(
-    V: Floats,
-    F: Ints,
-    D: Floats,
-    bad: Bools,
-    pairs: Ints | None,
-    hopeless: Bools,
-    thickness: float,
-    rounds: int,
-) -> tuple[Floats, int]:
+def _settled(outer: _Outer, D: Floats, bad: Bools, pairs: Ints | None, rounds: int) -> tuple[Floats, int]:
     """Run the rounds on the part of the mesh around bad faces; without pairs, those for flips alone."""
     if not bad.any():
         return D, rounds
-    part = part_around(V, F, bad, _PART * thickness)
+    part = submesh_around(outer.V, outer.F, bad, _PART * outer.thickness)
     if pairs is not None:
-        pairs = part.inside(pairs, len(F))
-    E, rounds = _rounds(
-        V[part.vertices], part.F, D[part.vertices], part.held, pairs, hopeless[part.faces], thickness, rounds
-    )
+        pairs = part.inside(pairs, len(outer.F))
+    inside = _Outer(outer.V[part.vertices], part.F, outer.thickness, outer.hopeless[part.faces], part.held)
+    E, rounds = _rounds(inside, D[part.vertices], pairs, rounds)
     D = D.copy()
     D[part.vertices] = E
     return D, rounds
 
 
-def _rounds(
-    V: Floats,
-    F: Ints,
-    D: Floats,
-    held: Bools,
-    pairs: Ints | None,
-    hopeless: Bools,
-    thickness: float,
-    rounds: int,
-) -> tuple[Floats, int]:
+def _rounds(outer: _Outer, D: Floats, pairs: Ints | None, rounds: int) -> tuple[Floats, int]:
     """Smooth, then retreat, until nothing is bad; give D and the rounds so far."""
-    patches = Patches(V, F, held)
-    both, cell = np.concatenate([F, F + len(V)]), cell_size(V, F, thickness)
+    V, F = outer.V, outer.F
+    patches = VertexPatches(V, F, outer.held)
     flips = flipped(V, F, D)
     least, since = len(F) + 1, 0
     last = _FLIP_ROUNDS if pairs is None else _MAX_ROUNDS
     while rounds < last:
-        hit = _hit(pairs, hopeless) if pairs is not None else np.zeros(len(F), bool)
+        hit = _hit(pairs, outer.hopeless) if pairs is not None else np.zeros(len(F), bool)
         bad = hit if rounds >= _SMOOTH_ROUNDS else hit | flips
         since = 0 if bad.sum() < least or rounds == _SMOOTH_ROUNDS else since + 1
         least = min(least, int(bad.sum()))
@@ -148,15 +154,15 @@ def _rounds(
             return D, rounds
         before = D
         if rounds < _SMOOTH_ROUNDS:
-            D = _smoothed(V, D, patches, np.unique(F[bad]), thickness, rounds)
+            D = _smoothed(outer, D, patches, np.unique(F[bad]), rounds)
             if pairs is not None:
-                D = _shortened(V, F, D, patches, pairs % len(F), thickness)
+                D = _shortened(outer, D, patches, pairs % len(F))
         else:
-            D = _retreated(V, F, D, patches, np.unique(F[bad]), thickness)
+            D = _retreated(outer, D, patches, np.unique(F[bad]))
         changed = at_any_corner((before != D).any(1), F)
         flips[changed] = flipped(V, F[changed], D)
         if pairs is not None:
-            pairs = _renewed(V, V + D, both, pairs, changed, cell)
+            pairs = _renewed(outer, V + D, pairs, changed)
         rounds += 1
     return D, rounds
 
@@ -178,18 +184,19 @@ def flipped(V: Floats, F: Ints, D: Floats) -> Bools:
     return collapsed | (np.einsum("ij,ij->i", inner, inward) >= -0.1 * area)
 
 
-def _renewed(V: Floats, inner: Floats, both: Ints, known: Ints, changed: Bools, cell: float) -> Ints:
+def _renewed(outer: _Outer, inner: Floats, known: Ints, changed: Bools) -> Ints:
     """Bring a list of crossing pairs up to date, testing only what moved against what is near."""
-    X = np.concatenate([V, inner])
+    X, both = np.concatenate([outer.V, inner]), outer.both
     active = np.concatenate([np.zeros(len(changed), bool), changed])
-    some = np.flatnonzero(near(X, both, active, cell))
+    some = np.flatnonzero(near(X, both, active, outer.cell))
     pairs = some[crossing_pairs(X, both[some])[0]]
     still = known[~active[known].any(1)]
     return np.concatenate([still, pairs[active[pairs].any(1)]])
 
 
-def _smoothed(V: Floats, D: Floats, patches: Patches, core: Ints, thickness: float, round_: int) -> Floats:
+def _smoothed(outer: _Outer, D: Floats, patches: VertexPatches, core: Ints, round_: int) -> Floats:
     """Smooth inner positions around the core; where edges are long rather D, which moves less."""
+    V, thickness = outer.V, outer.thickness
     patch = patches.around(core, 0.4 * thickness * (2 + round_ // 4))
     scale = (0.5 if round_ < 4 else 0.7) * thickness
     share = 0.75 * np.clip(1.75 - patches.edge[patch] / thickness, 0.0, 1.0)[:, None]
@@ -199,8 +206,9 @@ def _smoothed(V: Floats, D: Floats, patches: Patches, core: Ints, thickness: flo
     return D
 
 
-def _shortened(V: Floats, F: Ints, D: Floats, patches: Patches, pairs: Ints, thickness: float) -> Floats:
+def _shortened(outer: _Outer, D: Floats, patches: VertexPatches, pairs: Ints) -> Floats:
     """Draw D in where faces cross that are far apart on the outer sheet: two walls share the room."""
+    V, F, thickness = outer.V, outer.F, outer.thickness
     centre = V[F[pairs]].mean(2)
     met = pairs[np.linalg.norm(centre[:, 0] - centre[:, 1], axis=1) > 1.2 * thickness]
     if not len(met):
@@ -212,8 +220,9 @@ def _shortened(V: Floats, F: Ints, D: Floats, patches: Patches, pairs: Ints, thi
     return D
 
 
-def _retreated(V: Floats, F: Ints, D: Floats, patches: Patches, core: Ints, thickness: float) -> Floats:
+def _retreated(outer: _Outer, D: Floats, patches: VertexPatches, core: Ints) -> Floats:
     """Shorten D at the core, turn it to where it sees the faces around, and blend it into the rest."""
+    V, F, thickness = outer.V, outer.F, outer.thickness
     patch, weight = patches.bump(core, 0.3 * thickness)
     weight = weight * (np.linalg.norm(D[patch], axis=1, keepdims=True) > _SHORTEST)
     D = D.copy()

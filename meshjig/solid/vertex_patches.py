@@ -10,10 +10,10 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.smoothing import solve_screened
 from meshjig.solid.crossing_pairs import near
 
-__all__ = ["Part", "Patches", "part_around"]
+__all__ = ["Submesh", "VertexPatches", "submesh_around"]
 
 
-class Patches:
+class VertexPatches:
     """Neighbourhoods on a mesh.
 
     Smoothing weighs all neighbours alike. On positions it also moves vertices along the surface, towards
@@ -76,7 +76,7 @@ class Patches:
 
 
 @dataclass(frozen=True)
-class Part:
+class Submesh:
     """Some faces of a mesh, and the vertices they use."""
 
     faces: Ints  # (k,), into the mesh
@@ -93,7 +93,7 @@ class Part:
         return number[face[known]] + sheet[known] * len(self.faces)
 
 
-def part_around(V: Floats, F: Ints, core: Bools, reach: float) -> Part:
+def submesh_around(V: Floats, F: Ints, core: Bools, reach: float) -> Submesh:
     """Cut out the faces within about a reach of some.
 
     Parameters
@@ -105,7 +105,7 @@ def part_around(V: Floats, F: Ints, core: Bools, reach: float) -> Part:
 
     Returns
     -------
-    Part
+    Submesh
     """
     faces = np.flatnonzero(near(V, F, core, reach))
     vertices, G = np.unique(F[faces], return_inverse=True)
@@ -113,4 +113,4 @@ def part_around(V: Floats, F: Ints, core: Bools, reach: float) -> Part:
     outside[faces] = False
     shared = np.zeros(len(V), bool)
     shared[F[outside].ravel()] = True
-    return Part(faces, vertices, G.reshape(-1, 3), shared[vertices])
+    return Submesh(faces, vertices, G.reshape(-1, 3), shared[vertices])

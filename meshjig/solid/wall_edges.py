@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
@@ -14,9 +16,16 @@ _ROUNDS = 24
 _TURN = np.cos(np.radians(25))
 
 
-def split_bent_walls(
-    V: Floats, F: Ints, piece_of_face: Ints, D: Floats, tolerance: float
-) -> tuple[Floats, Ints, Ints, Floats]:
+class LabelledShell(NamedTuple):
+    """A surface that is divided into pieces, and the way to its inner sheet."""
+
+    V: Floats  # (n, 3), mm
+    F: Ints  # (m, 3)
+    piece_of_face: Ints  # (m,)
+    D: Floats  # (n, 3), mm
+
+
+def split_bent_walls(V: Floats, F: Ints, piece_of_face: Ints, D: Floats, tolerance: float) -> LabelledShell:
     """Halve the edges between pieces along which a wall turns too much to be two triangles.
 
     Parameters
@@ -29,7 +38,7 @@ def split_bent_walls(
 
     Returns
     -------
-    V, F, piece_of_face, D
+    LabelledShell
         The same surface and the same sheet, with more vertices; the old ones come first.
     """
     rest, rest_piece = F[:0], piece_of_face[:0]
@@ -42,15 +51,12 @@ def split_bent_walls(
         done = ~wanted[e.edge_of_halfedge].reshape(-1, 3).any(1)  # faces that won't change any more
         rest, rest_piece = np.concatenate([rest, F[done]]), np.concatenate([rest_piece, piece_of_face[done]])
         alone = _one_a_face(e.edge_of_halfedge.reshape(-1, 3), wanted)
-        F, piece_of_face, of_halfedge = (
-            F[~done],
-            piece_of_face[~done],
-            e.edge_of_halfedge[np.repeat(~done, 3)],
-        )
-        if not len(F):
+        left = LabelledShell(V, F[~done], piece_of_face[~done], D)
+        if done.all():
+            F, piece_of_face = left.F, left.piece_of_face
             break
-        V, F, piece_of_face, D = _halved(V, F, piece_of_face, D, of_halfedge, e.E, alone)
-    return V, np.concatenate([rest, F]), np.concatenate([rest_piece, piece_of_face]), D
+        V, F, piece_of_face, D = _halved(left, e.edge_of_halfedge[np.repeat(~done, 3)], e.E, alone)
+    return LabelledShell(V, np.concatenate([rest, F]), np.concatenate([rest_piece, piece_of_face]), D)
 
 
 def bent(X: Floats, Y: Floats, i: Ints, j: Ints, tolerance: float) -> Bools:
@@ -90,10 +96,9 @@ def _one_a_face(edges_of_face: Ints, wanted: Bools) -> Bools:
     return chosen
 
 
-def _halved(
-    V: Floats, F: Ints, piece: Ints, D: Floats, edge_of_halfedge: Ints, E: Ints, chosen: Bools
-) -> tuple[Floats, Ints, Ints, Floats]:
+def _halved(shell: LabelledShell, edge_of_halfedge: Ints, E: Ints, chosen: Bools) -> LabelledShell:
     """Put a vertex in the middle of each chosen edge, of which a face has one at most."""
+    V, F, piece, D = shell
     new = np.cumsum(chosen) - 1 + len(V)
     a, b = E[chosen].T
     h = np.flatnonzero(chosen[edge_of_halfedge])
@@ -104,7 +109,7 @@ def _halved(
     second[np.arange(len(h)), k] = middle
     F = F.copy()
     F[f] = first
-    return (
+    return LabelledShell(
         np.concatenate([V, (V[a] + V[b]) / 2]),
         np.concatenate([F, second]),
         np.concatenate([piece, piece[f]]),

@@ -22,8 +22,8 @@ def broken_by(core, **keywords):
 def test_a_core_that_keeps_its_gap_is_sound():
     facts, failures = judge_core([("core_1", *ball(17.6))], PIECES, clearance=CLEARANCE)
     assert failures == {}
-    assert facts["overlap_mm3"] == 0
-    assert CLEARANCE < facts["gap_mm"] < 0.45
+    assert facts.overlap_mm3 == 0
+    assert CLEARANCE < facts.gap_mm < 0.45
 
 
 @pytest.mark.parametrize(

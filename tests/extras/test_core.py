@@ -7,8 +7,8 @@ import pytest
 from meshjig.check import judge
 from meshjig.check.closed import volume
 from meshjig.errors import SolidError
-from meshjig.extras.cap_openings import closed_over
-from meshjig.extras.core import make_core
+from meshjig.extras.cap_openings import cap_openings
+from meshjig.extras.core import CoreShape, make_core
 from meshjig.mesh.booleans import arrays, body
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import face_areas, mesh_volume, vertex_normals
@@ -32,9 +32,8 @@ SHAPES = {
 def core_of(shape, clearance=0.3, **keywords):
     sheets = shell(*shape, 2.0)
     outer = Mesh(sheets.outer, shape.F)
-    parts, facts = make_core(
-        outer, sheets.D, clearance, **{"wall": 2.4, "min_wall": 1.2, "up": UP, **keywords}
-    )
+    wanted = CoreShape(clearance, **{"wall": 2.4, "min_wall": 1.2, "up": UP, **keywords})
+    parts, facts = make_core(outer, sheets.D, wanted)
     return outer, sheets.D, parts, facts
 
 
@@ -53,7 +52,7 @@ def _coarse(monkeypatch):
 @pytest.mark.parametrize(("name", "clearance"), [*((name, 0.6) for name in SHAPES), ("holes", 1.5)])
 def test_core_is_sound_and_keeps_its_gap(name, clearance):
     outer, D, parts, facts = core_of(SHAPES[name], clearance, wall=0.0)
-    assert facts["parts"] == len(parts) == 1
+    assert facts.parts == len(parts) == 1
     verdict = judge(parts)
     assert verdict.ok, verdict.failures
     walls, core = walls_of(outer, D), body(*parts[0])
@@ -67,7 +66,7 @@ def test_core_is_sound_and_keeps_its_gap(name, clearance):
 @pytest.mark.parametrize("name", ["sphere", "torus", "box", "bowl"])
 def test_core_fills_what_the_pieces_leave(name):
     outer, D, parts, _ = core_of(SHAPES[name], wall=0.0)
-    V, F, _ = closed_over(outer.V + D, outer.F)
+    V, F, _ = cap_openings(outer.V + D, outer.F)
     room = mesh_volume(V, F) - 0.33 * face_areas(V, F).sum()
     assert volume(*parts[0]) == pytest.approx(room, rel=0.03)
 
@@ -76,7 +75,7 @@ def test_core_fills_what_the_pieces_leave(name):
 def test_hollow_core_has_its_wall_and_a_drain(name, drains):
     _, _, solid, _ = core_of(SHAPES[name], wall=0.0)
     _, _, hollow, facts = core_of(SHAPES[name])
-    assert facts["drains"] == drains
+    assert facts.drains == drains
     verdict = judge(hollow)
     assert verdict.ok, verdict.failures
     area = face_areas(*solid[0]).sum()
@@ -89,7 +88,7 @@ def test_parts_fit_the_plate_and_are_the_whole_core():
     _, _, whole, _ = core_of(SHAPES["sphere"])
     plate = (60.0, 55.0, 101.0)
     _, _, parts, facts = core_of(SHAPES["sphere"], plate=plate)
-    assert facts["parts"] == len(parts) == 4
+    assert facts.parts == len(parts) == 4
     for V, _ in parts:
         assert (np.sort(np.ptp(V, axis=0)) <= np.sort(plate) + 1e-6).all()
     assert sum(volume(*part) for part in parts) == pytest.approx(volume(*whole[0]), rel=1e-6)
@@ -104,7 +103,7 @@ def test_limbs_too_thin_for_a_core_have_none():
     mesh = ball + manifold3d.Manifold.cylinder(35.0, 2.6, circular_segments=24).translate([0, 0, 28.0])
     V, F = arrays(mesh.refine_to_length(3.0))
     N = vertex_normals(V, F)
-    parts, _ = make_core(Mesh(V, F), -2.0 * N, 0.3, wall=0.0, min_wall=1.2, up=UP)
+    parts, _ = make_core(Mesh(V, F), -2.0 * N, CoreShape(0.3, wall=0.0, min_wall=1.2, up=UP))
     assert parts[0][0][:, 2].max() < 32.0
     assert judge(parts).ok
 
@@ -112,4 +111,4 @@ def test_limbs_too_thin_for_a_core_have_none():
 @pytest.mark.parametrize("shape", [disc(400), sphere(500, 2.2)])
 def test_models_without_room_are_refused(shape):
     with pytest.raises(SolidError, match="no room for a core"):
-        make_core(Mesh(*shape), -2.0 * vertex_normals(*shape), 0.3, wall=2.4, min_wall=1.2, up=UP)
+        make_core(Mesh(*shape), -2.0 * vertex_normals(*shape), CoreShape(0.3, wall=2.4, min_wall=1.2, up=UP))

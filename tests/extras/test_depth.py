@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.extras.cap_openings import closed_over
+from meshjig.extras.cap_openings import cap_openings
 from meshjig.extras.depth import Depth
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import face_areas, mesh_volume
@@ -55,7 +55,7 @@ def test_crossed_surfaces_are_inside_wherever_one_of_them_is():
     "shape", [half_sphere(1000), cylinder(800), open_cup(800), noisy(half_sphere(1000), 0.2)]
 )
 def test_openings_are_closed_by_flat_lids(shape):
-    V, F, area = closed_over(*shape)
+    V, F, area = cap_openings(*shape)
     assert not len(border_halfedges(F))
     assert mesh_volume(V, F) > 0
     assert np.array_equal(F[: len(shape.F)] < len(V), np.ones((len(shape.F), 3), bool))
@@ -66,12 +66,12 @@ def test_openings_are_closed_by_flat_lids(shape):
 
 
 def test_closed_surfaces_stay_as_they_are():
-    V, F, area = closed_over(*sphere(300))
+    V, F, area = cap_openings(*sphere(300))
     assert area == 0
     assert np.array_equal(F, sphere(300).F)
     assert len(V) == len(sphere(300).V)
 
 
 def test_flat_sheets_close_to_nothing():
-    V, F, _ = closed_over(*disc(300))
+    V, F, _ = cap_openings(*disc(300))
     assert mesh_volume(V, F) == pytest.approx(0, abs=1e-6)

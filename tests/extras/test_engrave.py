@@ -5,7 +5,7 @@ import pytest
 
 from meshjig.check import judge
 from meshjig.check.closed import is_closed_as_stl
-from meshjig.extras.engrave import LETTERING, engrave
+from meshjig.extras.engrave import LETTERING, LabelFacts, engrave
 from meshjig.extras.text import text_outline
 from meshjig.solid.printable import printable
 from tests.check.pieces import turned
@@ -44,7 +44,7 @@ def test_text_is_the_right_way_round(label):
 
     piece, outer, D = plate(40, 30, 2.0)
     [(V, F)], facts = engrave([piece], [label], outer, D, FDM)
-    assert facts == {"engraved": 1, "least_height_mm": 5.0, "skipped": {}}
+    assert facts == LabelFacts(1, 5.0, {})
     seen = read_from_inside(V, F, 1e-3)
     wanted = text_outline(label, 5.0, 0.8)
     mirrored = shapely.affinity.scale(wanted, -1, 1)
@@ -79,7 +79,7 @@ def test_volume_taken_is_that_of_the_groove(seed):
 def test_engraved_pieces_are_as_sound_as_before(made):
     piece, outer, D = made
     [(V, F)], facts = engrave([piece], ["128"], outer, D, FDM, min_wall=1.2)
-    assert facts["engraved"] == 1
+    assert facts.engraved == 1
     assert len(F) > len(piece[1])
     V, F = printable(V, F)
     verdict = judge([(V, F)], thickness=2.0, min_wall=1.2)
@@ -105,11 +105,11 @@ def test_no_more_than_a_third_of_the_wall_is_taken_and_the_least_wall_is_left(th
         [(V, _)], facts = engrave([piece], ["8"], outer, D, FDM, min_wall=min_wall)
         left = -V[(V[:, 2] < -1e-6) & (V[:, 2] > -thickness + 1e-6), 2]
         possible = min(0.35 * thickness, thickness - min_wall) >= 0.6 * 0.4
-        assert facts["engraved"] == possible
+        assert facts.engraved == possible
         if possible:
             assert left.min() >= max(min_wall, 0.65 * thickness) - 1e-6
         else:
-            assert "wall is under" in facts["skipped"]["8"]
+            assert "wall is under" in facts.skipped["8"]
 
 
 def test_piece_without_room_is_left_alone_and_said_so():
@@ -117,7 +117,7 @@ def test_piece_without_room_is_left_alone_and_said_so():
     [(V, F)], facts = engrave([small], ["88"], outer, D, FDM)
     assert V is small[0]
     assert F is small[1]
-    assert facts["skipped"] == {"88": "its inner side is too small or too curved"}
+    assert facts.skipped == {"88": "its inner side is too small or too curved"}
     elsewhere = Shape(small[0] + [0, 0, 50.0], small[1])
     assert engrave([elsewhere], ["88"], outer, D, FDM)[1]["skipped"] == {"88": "it has no inner side"}
 
@@ -138,7 +138,7 @@ def test_order_and_outer_sides_stay():
         np.concatenate([outer.V, outer.V + away]), np.concatenate([outer.F, outer.F + len(outer.V)])
     )
     made, facts = engrave(both, ["1", "2"], sheet, np.concatenate([D, D]), FDM)
-    assert facts["engraved"] == 2
+    assert facts.engraved == 2
     for (V, F), (W, _) in zip(made, both, strict=True):
         assert is_closed_as_stl(V, F)
         assert np.allclose([V.min(0), V.max(0)], [W.min(0), W.max(0)])

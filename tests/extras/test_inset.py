@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshjig.check.closed import is_closed
-from meshjig.extras.carve_clearance import carved
+from meshjig.extras.carve_clearance import carve_clearance
 from meshjig.extras.depth import Depth
 from meshjig.extras.inset import inset_surface
 from meshjig.mesh.booleans import arrays, body, sound
@@ -68,7 +68,7 @@ def test_carving_leaves_the_distance_and_little_more(distance):
 
     block = body(*box([0, 0, 0], [20, 20, 20]))
     V, F = np.array([[5.0, 5, 20], [15, 5, 20], [10, 15, 20]]), np.array([[0, 1, 2]])
-    W, G = arrays(carved(block, V, F, distance))
+    W, G = arrays(carve_clearance(block, V, F, distance))
     points = np.concatenate([W, W[G].mean(axis=1)])
     away = np.sqrt(igl.point_mesh_squared_distance(points, V, F)[0])
     assert away.min() >= distance * (1 - 1e-9)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.extras.label_place import places
+from meshjig.extras.label_place import label_places
 from meshjig.mesh.measure import unit
 from tests.extras.sheets import plate
 from tests.meshes import Shape, cylinder, half_sphere, inside_out
@@ -26,7 +26,7 @@ def test_rectangle_lies_within_the_sheet_with_its_margin(turn):
     cos, sin = np.cos(turn), np.sin(turn)
     V = V @ np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]])
     sheet = shapely.union_all([shapely.Polygon(t) for t in V[F][:, :, :2]])
-    i, place = next(places(V, F, [SIZE], 1.0))
+    i, place = next(label_places(V, F, [SIZE], 1.0))
     assert i == 0
     half = (SIZE / 2 + 0.95) * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     corners = place.origin[:2] + half @ place.axes[:2, :2]
@@ -36,18 +36,18 @@ def test_rectangle_lies_within_the_sheet_with_its_margin(turn):
 def test_the_largest_size_that_fits_is_taken():
     V, F = l_shape()
     sizes = [np.array([28.0, 12.0]), np.array([20.0, 6.0]), SIZE]
-    assert next(places(V, F, sizes, 1.0))[0] == 1
+    assert next(label_places(V, F, sizes, 1.0))[0] == 1
 
 
 def test_nothing_fits_where_there_is_no_room():
     V, F = l_shape()
-    assert not list(places(V, F, [np.array([9.0, 9.0])], 1.0))
-    assert not list(places(V, F[:0], [SIZE], 1.0))
+    assert not list(label_places(V, F, [np.array([9.0, 9.0])], 1.0))
+    assert not list(label_places(V, F[:0], [SIZE], 1.0))
 
 
 @pytest.mark.parametrize("shape", [half_sphere(3000), inside_out(half_sphere(3000)), cylinder(3000)])
 def test_axes_are_right_handed_and_look_along_the_sheets_normal(shape):
-    found = list(places(*shape, [SIZE], 1.0))
+    found = list(label_places(*shape, [SIZE], 1.0))
     assert found
     for _, place in found:
         assert np.linalg.det(place.axes) == pytest.approx(1.0)
@@ -62,5 +62,5 @@ def test_axes_are_right_handed_and_look_along_the_sheets_normal(shape):
 def test_text_runs_along_a_trough():
     V, F = inside_out(cylinder(4000))
     V = V * [0.16, 0.16, 1.0]  # radius 4 mm
-    _, place = next(places(V, F, [np.array([12.0, 3.0])], 0.5))
+    _, place = next(label_places(V, F, [np.array([12.0, 3.0])], 0.5))
     assert abs(place.axes[0, 2]) > 0.9

@@ -76,5 +76,5 @@ def test_pieces_of_a_vase_change_places_unless_they_are_to_be_unique(unique):
     surface = Mesh(*refine_long_edges(mesh.V, mesh.F, 6.0))
     layout = tile_layout(chart(Scan(surface, None, None), options), options, Stages())
     _, facts = clashes(layout, options.clearance)
-    assert (facts["interchangeable_pieces"] == 0) == unique
-    assert (facts["congruent_borders"] < 40) == unique  # plain borders are left to look alike
+    assert (facts.interchangeable_pieces == 0) == unique
+    assert (facts.congruent_borders < 40) == unique  # plain borders are left to look alike

@@ -34,7 +34,7 @@ def layouts(atlas, **asked):
     options = Options.of(charts="periodic", pieces=60, process="sla", **asked)
     layout = tile_layout(atlas, options, Stages())
     with pytest.MonkeyPatch.context() as context:
-        context.setattr(meshjig.layout.tiles, "knobs_over_seams", lambda layout, *_: layout)
+        context.setattr(meshjig.layout.tiles, "add_seam_knobs", lambda layout, *_: layout)
         return options, layout, tile_layout(atlas, options, Stages())
 
 
@@ -53,8 +53,8 @@ def test_knobs_cross_the_seams_and_keep_every_promise(classic):
     assert before.interlocked_length(options.clearance) < 0.98
     assert after.interlocked_length(options.clearance) > 0.995
     facts = layout.stitching.facts
-    assert facts["seam_knobs"] == len(layout.knobs.neck) - len(plain.knobs.neck)
-    assert facts["seam_knobs"] >= 0.9 * facts["seam_borders"] > 4
+    assert facts.seam_knobs == len(layout.knobs.neck) - len(plain.knobs.neck)
+    assert facts.seam_knobs >= 0.9 * facts.seam_borders > 4
 
     # those that were there are there; the new ones have sound necks and heads
     n = len(before.neck)
@@ -84,7 +84,7 @@ def test_no_knob_leaves_the_surface_at_an_open_border(classic):
 def test_figures_that_hold_each_other_by_shape_get_knobs_on_seams_alone(atlas):
     _, layout, plain = layouts(atlas, tile="escher:fish")
     there = len(plain.knobs.neck)  # the capstone's
-    assert len(layout.knobs.neck) - there == layout.stitching.facts["seam_knobs"] > 1
+    assert len(layout.knobs.neck) - there == layout.stitching.facts.seam_knobs > 1
     plane, space = cut_curves(layout.cut, layout.outlines)
     assert all(len(p) == len(x) for p, x in zip(plane, space, strict=True))
     low, high = layout.atlas.uv.min(0) - 1e-3, layout.atlas.uv.max(0) + 1e-3

@@ -55,7 +55,7 @@ def test_tiny_pieces_join_the_neighbour_with_most_border():
     borders = [(0, 1, 4, False), (0, 2, 6, False), (1, 2, 10, False)]
     stitching = stitch(graph([10, 100, 100], borders), 0.3, 100)
     assert groups(stitching) == [[0, 2], [1]]
-    assert stitching.facts["tiny_merged"] == 1
+    assert stitching.facts.tiny_merged == 1
 
 
 def test_borders_of_merged_pieces_add_up():
@@ -67,7 +67,7 @@ def test_borders_of_merged_pieces_add_up():
 def test_a_tiny_island_stays():
     stitching = stitch(graph([1, 100, 100], [(1, 2, 10, False)]), 0.3, 100)
     assert stitching.n_pieces == 3
-    assert stitching.facts["tiny_left"] == 1
+    assert stitching.facts.tiny_left == 1
 
 
 def test_stretches_of_border_add_up_by_pair_and_kind():

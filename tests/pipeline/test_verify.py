@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
 from meshjig.pipeline.verify import judged
 
@@ -18,11 +19,13 @@ def boxes():
     ball = trimesh.creation.icosphere(2, 0.5).apply_translation([4.4, 5, 1])
     first = trimesh.boolean.union([first, ball], engine="manifold")
     other = trimesh.creation.box(bounds=[[5, 0, 0], [9, 10, 2]])
-    return [(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64)) for mesh in (first, other)]
+    return Pieces.of(
+        [(name, mesh.vertices, mesh.faces) for name, mesh in zip(NAMES, (first, other), strict=True)], PAIR
+    )
 
 
 def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxes):
-    solids, verdict, facts = judged(boxes, NAMES, PAIR, Options(clearance=0.2), [])
+    solids, verdict, facts = judged(boxes, Options(clearance=0.2), [])
     assert facts == {"dented": [0, 1], "discarded": 0.0}  # nothing has come off
     assert verdict.checks["gap_mm"]["min"] >= 0.97 * 0.2
     assert not verdict.near
@@ -30,13 +33,13 @@ def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxe
 
 
 def test_pieces_that_keep_the_gap_are_left_as_they_are(boxes):
-    solids, verdict, facts = judged(boxes, NAMES, PAIR, Options(clearance=0.1), [])
+    solids, verdict, facts = judged(boxes, Options(clearance=0.1), [])
     assert solids is boxes
     assert facts == {"dented": [], "discarded": 0.0}
     assert "gap_mm" not in verdict.failures
 
 
 def test_gaps_of_the_plane_are_judged_but_not_mended(boxes):
-    solids, verdict, _ = judged(boxes, NAMES, PAIR, Options(clearance=0.2, clearance_method="stretch"), [])
+    solids, verdict, _ = judged(boxes, Options(clearance=0.2, clearance_method="stretch"), [])
     assert solids is boxes
     assert verdict.failures["gap_mm"] == list(NAMES)

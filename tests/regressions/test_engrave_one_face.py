@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.extras.engrave import LETTERING, engrave
+from meshjig.extras.engrave import LETTERING, LabelFacts, engrave
 from tests.extras.sheets import whole_shell
 from tests.meshes import Shape
 
@@ -14,4 +14,4 @@ def test_text_within_a_single_face_is_engraved(height):
     F = np.array([[0, 1, 2], [1, 0, 3]])[: 1 + bool(height)]
     piece, outer, D = whole_shell(Shape(V[: 3 + bool(height)], F), 2.0)
     _, facts = engrave([piece], ["4"], outer, D, LETTERING["fdm"])
-    assert facts == {"engraved": 1, "least_height_mm": 5.0, "skipped": {}}
+    assert facts == LabelFacts(1, 5.0, {})

@@ -10,7 +10,7 @@ from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.solid import displacement, kerf, solidify
 from meshjig.solid.border_chains import border_chains
-from meshjig.solid.carve_gap import mended
+from meshjig.solid.carve_gap import repair
 from meshjig.solid.printable import printable
 from meshjig.solid.solidify import OUTER
 from tests.meshes import creased_box, disc, genus2, half_sphere, noisy, open_cup, sphere, torus
@@ -54,9 +54,9 @@ def test_pieces_are_sound_and_stand_the_gap_apart(name):
     D, _ = displacement(V, F, 2.0)
     solids, facts = kerf(V, F, label, D, 0.2)
     pieces = [printable(*solid) for solid in solids]
-    assert facts["crossing"] == []
-    assert facts["uncut"] == []
-    assert facts["discarded_volume_share"] < 0.001
+    assert facts.crossing == []
+    assert facts.uncut == []
+    assert facts.discarded_volume_share < 0.001
     for piece in pieces:
         assert is_closed_as_stl(*piece)
         assert is_one_component(piece[1])
@@ -89,7 +89,7 @@ def test_no_clearance_leaves_the_pieces_touching():
     D = -2 * V / np.linalg.norm(V, axis=1, keepdims=True)
     solids, facts = kerf(V, F, label, D, 0.0)
     expected, _ = solidify(V, F, label, D)
-    assert facts["discarded_volume_share"] == 0
+    assert facts.discarded_volume_share == 0
     for (X, G), solid in zip(solids, expected, strict=True):
         assert (X == solid.V).all()
         assert (G == solid.F).all()
@@ -116,11 +116,11 @@ def test_a_part_that_the_gap_cuts_off_is_counted():
     label = np.where(band & ~narrow, 1, 0)
     D = np.tile([0, 0, -2.0], (len(V), 1))
     solids, facts = kerf(V, F, label, D, 0.2)
-    assert facts["split"] == [1]
+    assert facts.split == [1]
     parts = trimesh.Trimesh(*solidify(V, F, label, D)[0][1][:2], process=False).split()
     lost = min(part.volume for part in parts)
     total = sum(trimesh.Trimesh(*s, process=False).volume for s in solids)
-    assert facts["discarded_volume_share"] == pytest.approx(lost / (total + lost), rel=0.05)
+    assert facts.discarded_volume_share == pytest.approx(lost / (total + lost), rel=0.05)
 
 
 def test_equal_input_gives_equal_pieces():
@@ -146,7 +146,7 @@ def folded_sheet():
 def test_a_folded_solid_is_mended():
     solid = folded_sheet()
     assert len(self_intersections(solid.V, solid.F))
-    repaired = mended(solid, 1)
+    repaired = repair(solid, 1)
     mesh = repaired.to_mesh64()
     V, F = np.array(mesh.vert_properties, float)[:, :3], np.array(mesh.tri_verts, np.int64)
     assert not len(self_intersections(V, F))
@@ -157,7 +157,7 @@ def test_a_folded_solid_is_mended():
 def test_a_sound_solid_needs_no_mending():
     V, F = half_sphere(800)
     (solid,) = solidify(V, F, np.zeros(len(F), np.int64), -0.04 * V)[0]
-    assert mended(solid, 1) is None
+    assert repair(solid, 1) is None
     assert body(solid.V, solid.F).volume() == pytest.approx(trimesh.Trimesh(solid.V, solid.F).volume)
 
 

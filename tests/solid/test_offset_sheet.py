@@ -52,7 +52,7 @@ def test_inner_sheet_is_a_thickness_away_and_crosses_nothing(name):
     D, facts = displacement(V, F, T)
     away = distances(V, F, D)
     assert ((away > 0.8 * T) & (away < 1.25 * T)).mean() > (0.9 if name in CREASED else 0.97)
-    assert facts["folds_left"] == 0
+    assert facts.folds_left == 0
     both = np.concatenate([F, F[:, ::-1] + len(V)])
     assert len(crossing_pairs(np.concatenate([V, V + D]), both)[0]) == 0
 
@@ -61,8 +61,8 @@ def test_a_sphere_has_its_smaller_sphere_inside():
     V, F = SHAPES["sphere"]
     D, facts = displacement(V, F, T)
     assert np.linalg.norm(V + D, axis=1) == pytest.approx(np.full(len(V), 48.0), abs=0.15)
-    assert facts["thin_area_share"] == 0
-    assert facts["min_thickness"] == pytest.approx(T, abs=0.15)
+    assert facts.thin_area_share == 0
+    assert facts.min_thickness == pytest.approx(T, abs=0.15)
 
 
 def test_walls_that_face_each_other_share_the_room():
@@ -71,8 +71,8 @@ def test_walls_that_face_each_other_share_the_room():
     D, facts = displacement(V, F, T)
     assert ((V + D)[:, 2] * np.sign(V[:, 2])).min() > 0.05  # neither passes the middle
     assert np.median(np.linalg.norm(D, axis=1)) > 1.2
-    assert facts["thin_area_share"] > 0.9
-    assert facts["folds_left"] == 0
+    assert facts.thin_area_share > 0.9
+    assert facts.folds_left == 0
 
 
 def test_the_place_of_a_model_does_not_matter():

@@ -18,8 +18,8 @@ def test_vertices_lie_at_the_exact_distance(mesh, side):
     sheet = wall.outer + wall.D if side == "in" else wall.outer
     away = np.sqrt(igl.point_mesh_squared_distance(sheet, V, F)[0])
     assert (np.abs(away - T) < 0.02 * T).mean() > 0.98
-    assert wall.facts["join_method"] == "libigl offset_surface"
-    assert 0.5 < wall.facts["join_cell"] < 1.1
+    assert wall.facts.join_method == "libigl offset_surface"
+    assert 0.5 < wall.facts.join_cell < 1.1
 
 
 def test_a_sheet_out_of_reach_is_left_as_it_is():
@@ -27,4 +27,4 @@ def test_a_sheet_out_of_reach_is_left_as_it_is():
     D = -0.1 * V  # far above the offset surface for a wall of 30 mm
     after, facts = rounded(V, F, D, 30.0, SurfaceDistance(V, F))
     assert (after == D).all()
-    assert facts["joined_share"] == 0
+    assert facts.joined_share == 0

@@ -36,9 +36,9 @@ def test_a_ball_gets_its_wall_on_the_side_that_was_asked_for(side, join, outer, 
     wall = shell(V, F, T, side=side, join=join)
     assert np.linalg.norm(wall.outer, axis=1) == pytest.approx(np.full(len(V), outer), abs=0.15)
     assert np.linalg.norm(wall.outer + wall.D, axis=1) == pytest.approx(np.full(len(V), inner), abs=0.15)
-    assert wall.facts["side"] == side
-    assert wall.facts["join"] == join
-    assert wall.facts["min_thickness"] == pytest.approx(T, abs=0.15)
+    assert wall.facts.side == side
+    assert wall.facts.join == join
+    assert wall.facts.min_thickness == pytest.approx(T, abs=0.15)
 
 
 @pytest.mark.parametrize("side", ["in", "out", "both"])
@@ -47,8 +47,8 @@ def test_sheets_cross_nothing_on_any_side(name, side):
     V, F = SHAPES[name]
     wall = shell(V, F, T, side=side)
     assert crossings(wall, F) == 0
-    assert wall.facts["crossings_left"] == 0
-    assert wall.facts["thin_area_share"] < 0.05
+    assert wall.facts.crossings_left == 0
+    assert wall.facts.thin_area_share < 0.05
 
 
 @pytest.mark.parametrize(("join", "corner"), [("miter", 2.0), ("round", 2.0 / np.sqrt(3))])
@@ -73,9 +73,9 @@ def test_the_thinnest_place_is_told():
     V, F = sphere(6000)
     V = V * np.array([1, 1, 1]) * (1 - 0.97 * np.exp(-((V[:, [2]] / 12) ** 2)) * np.array([1, 1, 0]))
     wall = shell(V, F, T)  # an hourglass with a waist of 3 mm
-    assert abs(wall.facts["thinnest_at"][2]) < 5
-    assert 0 < wall.facts["min_thickness"] < 1.0
-    assert 0 < wall.facts["thin_area_share"] < 0.2
+    assert abs(wall.facts.thinnest_at[2]) < 5
+    assert 0 < wall.facts.min_thickness < 1.0
+    assert 0 < wall.facts.thin_area_share < 0.2
 
 
 def test_the_outer_sheet_is_the_surface_itself():

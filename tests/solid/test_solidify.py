@@ -110,7 +110,7 @@ def test_a_piece_that_touches_itself_at_a_point_stays_manifold():
     angle = np.arctan2(*V[F].mean(1)[:, 1::-1].T)
     label = np.where(np.abs(np.sin(angle)) < np.sin(np.pi / 6 + 1e-3), 0, -1)  # two wedges, one point
     (solid,), facts = solidify(V, F, label, np.tile([0.0, 0.0, -2.0], (len(V), 1)))
-    assert facts["pinches"] == 2
+    assert facts.pinches == 2
     assert_sound(solid)
 
 
@@ -122,7 +122,7 @@ def test_vertices_that_share_a_place_in_the_input_are_told_apart():
     doubled = np.concatenate([V, V[:1]])  # the centre is vertex 0
     G = np.where(right[:, None] & (F == 0), len(V), F)
     (solid,), facts = solidify(doubled, G, label, np.tile([0.0, 0.0, -2.0], (len(doubled), 1)))
-    assert facts["pinches"] == 2
+    assert facts.pinches == 2
     assert_sound(solid)
 
 
@@ -132,7 +132,7 @@ def test_inner_vertices_that_fall_together_are_moved_apart():
     top = np.argsort(V[:, 2])[-7:]
     D[top] = np.array([0, 0, 44.0]) - V[top]
     solids, facts = solidify(V, F, (V[F].mean(1)[:, 2] < 20).astype(np.int64), D)
-    assert facts["nudged"] >= 6
+    assert facts.nudged >= 6
     assert_sound(solids[0])
 
 
@@ -140,7 +140,7 @@ def test_missing_thickness_is_raised_to_the_least():
     V, F = SHAPES["sphere"]
     label = (V[F].mean(1)[:, 2] < 20).astype(np.int64)
     solids, facts = solidify(V, F, label, np.zeros_like(V))
-    assert facts["raised"] >= len(V)
+    assert facts.raised >= len(V)
     for solid in solids:
         assert_sound(solid)
 
@@ -150,7 +150,7 @@ def test_pieces_turned_inside_out_by_their_inner_sheet_are_made_thinner():
     label = (V[F].mean(1)[:, 0] > 0).astype(np.int64)
     axial = V * np.array([0, 0, 1])
     solids, facts = solidify(V, F, label, (axial - V) * 80 / 25)
-    assert facts["shrunk"] == 2
+    assert facts.shrunk == 2
     assert all(as_file(solid).volume > 0 for solid in solids)
 
 

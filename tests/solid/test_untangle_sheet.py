@@ -3,8 +3,8 @@ import pytest
 
 from meshjig.mesh.measure import unit
 from meshjig.solid.crossing_pairs import crossing_pairs
-from meshjig.solid.untangle_sheet import flipped, unfold
-from meshjig.solid.vertex_patches import Patches
+from meshjig.solid.untangle_sheet import flipped, untangle_sheet
+from meshjig.solid.vertex_patches import VertexPatches
 from tests.meshes import cylinder, noisy, sphere, torus, two_components
 
 T = 2.0
@@ -26,26 +26,26 @@ def test_a_crumpled_inner_sheet_is_unfolded(mesh, disorder):
     some = rng.choice(len(V), 40)
     D[some] += disorder * T * rng.normal(size=(40, 3))
     assert crossings(V, F, D) > 0
-    D, facts = unfold(V, F, D, T)
+    D, facts = untangle_sheet(V, F, D, T)
     assert crossings(V, F, D) == 0
-    assert facts["crossings_left"] == 0
+    assert facts.crossings_left == 0
     assert np.median(np.linalg.norm(D, axis=1)) == pytest.approx(T, abs=0.02)
 
 
 def test_a_good_sheet_is_left_as_it_is():
     V, F = sphere(3000)
     D = -T * unit(V)
-    after, facts = unfold(V, F, D, T)
+    after, facts = untangle_sheet(V, F, D, T)
     assert (after == D).all()
-    assert facts["rounds"] == 0
+    assert facts.rounds == 0
 
 
 def test_what_is_left_is_counted():
     V, F = noisy(sphere(1000), 1.5)  # the outer sheet itself is crumpled
-    D, facts = unfold(V, F, -T * unit(V), T)
+    D, facts = untangle_sheet(V, F, -T * unit(V), T)
     assert np.isfinite(D).all()
-    assert facts["folds_left"] >= facts["crossings_left"]
-    assert facts["folds_left"] > 0
+    assert facts.folds_left >= facts.crossings_left
+    assert facts.folds_left > 0
 
 
 @pytest.mark.parametrize(("depth", "share"), [(20.0, 0.0), (40.0, 1.0)])
@@ -56,7 +56,7 @@ def test_flips_are_faces_that_passed_the_axis(depth, share):
 
 def test_smoothing_a_patch_holds_the_rest_and_keeps_constants():
     V, F = torus(2000)
-    patches = Patches(V, F)
+    patches = VertexPatches(V, F)
     patch = patches.around(np.array([5]), 15.0)
     assert 20 < len(patch) < 300
     assert patches.smoothed(np.ones((len(V), 1)), 5.0, patch) == pytest.approx(np.ones((len(patch), 1)))

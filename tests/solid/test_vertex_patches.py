@@ -1,6 +1,6 @@
 import numpy as np
 
-from meshjig.solid.vertex_patches import part_around
+from meshjig.solid.vertex_patches import submesh_around
 from tests.meshes import joined, moved, sphere, torus
 
 
@@ -8,7 +8,7 @@ def test_a_part_holds_where_it_was_cut_out():
     V, F = sphere(4000)
     core = np.zeros(len(F), bool)
     core[7] = True
-    part = part_around(V, F, core, 10.0)
+    part = submesh_around(V, F, core, 10.0)
     assert 10 < len(part.faces) < len(F) / 2
     assert (part.vertices[part.F] == F[part.faces]).all()
     outside = np.setdiff1d(np.arange(len(F)), part.faces)
@@ -21,8 +21,8 @@ def test_a_wall_across_is_part_of_it():
     V, F = joined(sphere(1000), moved(torus(1000), [0, 0, 70]))
     core = np.zeros(len(F), bool)
     core[V[F].mean(1)[:, 2].argmax()] = True
-    assert not part_around(V, F, core, 1.0).held.all()
-    whole = part_around(V, F, core, 500.0)
+    assert not submesh_around(V, F, core, 1.0).held.all()
+    whole = submesh_around(V, F, core, 500.0)
     assert len(whole.faces) == len(F)
     assert not whole.held.any()
 
@@ -31,7 +31,7 @@ def test_pairs_of_both_sheets_are_renumbered():
     V, F = sphere(4000)
     core = np.zeros(len(F), bool)
     core[100] = True
-    part = part_around(V, F, core, 5.0)
+    part = submesh_around(V, F, core, 5.0)
     a, b = part.faces[[3, 5]]
     far = np.setdiff1d(np.arange(len(F)), part.faces)[0]
     pairs = np.array([[a, b + len(F)], [a + len(F), b + len(F)], [a, far]])

@@ -8,19 +8,21 @@ from meshjig.mesh.arrays import Bools, Floats, Ints, ranks, row_of
 from meshjig.mesh.halfedges import Edges
 from meshjig.mesh.measure import vertex_normals
 
-__all__ = ["ALONG", "Rim", "between", "distances_along", "rim_of"]
+__all__ = ["ALONG", "BorderPoints", "between", "border_points", "distances_along"]
 
 FINE = 0.1  # widths between points of a border
 SEEN = 2.0  # widths up to which distances from borders are known
 ALONG = np.linspace(0, 1, 9)  # of an edge, where its distance from the borders is looked at
 
 
-class Rim(NamedTuple):
+class BorderPoints(NamedTuple):
     """Points along the borders of all pieces, to be near to or not."""
 
-    N: Floats  # (n, 3), normals of the mesh's vertices
+    V: Floats  # (n, 3), the mesh's vertices
+    N: Floats  # (n, 3), their normals
     tree: Any
     normals: Floats  # (k, 3), of the points
+    width: float  # mm, that is to be told apart from less
     reach: float  # mm
 
     def distance(self, P: Floats, N: Floats) -> Floats:
@@ -35,7 +37,7 @@ class Rim(NamedTuple):
         return np.minimum(far, self.reach)
 
 
-def rim_of(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Rim:
+def border_points(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> BorderPoints:
     """Put points along the borders of all pieces.
 
     Parameters
@@ -54,21 +56,22 @@ def rim_of(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Rim:
     t = ranks(n) / np.maximum(n[row] - 1, 1)
     N = vertex_normals(V, F)
     points, normals = (between(X, np.stack([a[row], b[row]], 1), t) for X in (V, N))
-    return Rim(N, cKDTree(points), normals, SEEN * width)
+    return BorderPoints(V, N, cKDTree(points), normals, width, SEEN * width)
 
 
-def distances_along(V: Floats, ends: Ints, rim: Rim, width: float) -> Floats:
+def distances_along(ends: Ints, near: BorderPoints) -> Floats:
     """Give the distance of edges (k, 2) from the borders all along them, (k, 9), mm.
 
     An edge so short or so far from the borders that it can't come near has those of its ends.
     """
-    at_end = rim.distance(V, rim.N)[ends]
+    V = near.V
+    at_end = near.distance(V, near.N)[ends]
     length = np.linalg.norm(V[ends[:, 0]] - V[ends[:, 1]], axis=1)
     far = at_end[:, :1] + ALONG * (at_end[:, 1:] - at_end[:, :1])
-    doubt = np.flatnonzero(at_end.sum(1) < length + width)
+    doubt = np.flatnonzero(at_end.sum(1) < length + near.width)
     inner, t = len(ALONG) - 2, np.tile(ALONG[1:-1], len(doubt))
     along = np.repeat(ends[doubt], inner, axis=0)
-    far[doubt, 1:-1] = rim.distance(between(V, along, t), between(rim.N, along, t)).reshape(-1, inner)
+    far[doubt, 1:-1] = near.distance(between(V, along, t), between(near.N, along, t)).reshape(-1, inner)
     return far
 
 

@@ -1,27 +1,28 @@
 """What hangs on a piece by so little that it would come off: a neighbour gets it."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.layout.necks.neck_prefilter import could_be_narrow
-from meshjig.layout.necks.width_components import parts_by_width
+from meshjig.layout.necks.neck_prefilter import could_have_necks
+from meshjig.layout.necks.width_components import width_components
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.types import CutMesh, Stitching
 
-__all__ = ["divide_at_isthmuses"]
+__all__ = ["divide_at_necks"]
 
 SPECK = 1.0  # squares of the width; what is smaller and comes off is not missed
 ROUNDS = 6  # what was handed over may hang on by little again
 
 
-def divide_at_isthmuses(
+def divide_at_necks(
     cut: CutMesh, stitching: Stitching, width: float, smallest: float
 ) -> tuple[CutMesh, Stitching]:
-    """Take from pieces what hangs on them by an isthmus.
+    """Take from pieces what hangs on them by a neck.
 
     It goes to the neighbour with which it has the longest border; what is large enough becomes a piece.
 
@@ -29,27 +30,27 @@ def divide_at_isthmuses(
     ----------
     cut : CutMesh
     stitching : Stitching, of its regions
-    width : float, mm, of an isthmus at most; 0 for none
+    width : float, mm, of a neck at most; 0 for none
     smallest : float, share of the mean area under which a part is too small to be a piece
 
     Returns
     -------
     cut : CutMesh, its regions divided where pieces are
     stitching : Stitching
-        facts: also handed_over (parts that went to a neighbour) and parted (those that became pieces).
     """
-    facts = {"handed_over": 0, "parted": 0}
+    handed_over = parted = 0
     piece, area = stitching.piece_of_region[cut.region], face_areas(cut.V, cut.F)
-    least = smallest * float(area.sum()) / max(stitching.n_pieces, 1)
+    limits = _Limits(width, smallest * float(area.sum()) / max(stitching.n_pieces, 1))
     e = edges(cut.F)
-    narrow = could_be_narrow(cut.V, cut.F, e, piece, width) if width > 0 else np.zeros(0, bool)
+    narrow = could_have_necks(cut.V, cut.F, e, piece, width) if width > 0 else np.zeros(0, bool)
     for _ in range(ROUNDS):
         if not narrow.any():
             break
         before = piece
-        piece = _without_isthmuses(cut, e, piece, narrow[piece], area, width, least, facts)
+        piece, handed, new = _without_necks(cut, e, piece, narrow[piece], area, limits)
+        handed_over, parted = handed_over + handed, parted + new
         narrow = np.bincount(piece, piece != before) > 0
-    facts = stitching.facts | facts
+    facts = replace(stitching.facts, handed_over=handed_over, parted=parted)
     if (piece == stitching.piece_of_region[cut.region]).all():
         return cut, replace(stitching, facts=facts)
     both = cut.region * np.int64(piece.max() + 1) + piece
@@ -59,19 +60,21 @@ def divide_at_isthmuses(
     return replace(cut, region=region), Stitching(piece_of_region, facts)
 
 
-def _without_isthmuses(
-    cut: CutMesh,
-    e: Edges,
-    piece: Ints,
-    asked: Bools,
-    area: Floats,
-    width: float,
-    least: float,
-    facts: dict[str, int],
-) -> Ints:
-    """Give the piece of every face, (m,), once what is beyond isthmuses of the pieces asked has a new one."""
+class _Limits(NamedTuple):
+    width: float  # mm, of a neck at most
+    least: float  # mm2, under which a part is too small to be a piece
+
+
+def _without_necks(
+    cut: CutMesh, e: Edges, piece: Ints, asked: Bools, area: Floats, limits: _Limits
+) -> tuple[Ints, int, int]:
+    """Give the piece of every face, (m,), once what is beyond necks of the pieces asked has a new one.
+
+    Also count the parts that went to a neighbour, and those that became pieces.
+    """
+    width, handed_over, parted = limits.width, 0, 0
     part = piece.copy()
-    part[asked] = int(piece.max()) + 1 + parts_by_width(cut.V, cut.F[asked], piece[asked], width)
+    part[asked] = int(piece.max()) + 1 + width_components(cut.V, cut.F[asked], piece[asked], width)
     n = int(part.max()) + 1
     size, owner = sums(part, area, n), np.zeros(n, np.int64)
     owner[part] = piece
@@ -83,13 +86,13 @@ def _without_isthmuses(
     new = owner.copy()
     for k in beyond[np.argsort(-size[beyond], kind="stable")].tolist():
         longest, neighbour = max(((mm, -p) for p, mm in border[k].items()), default=(0.0, 0))
-        if size[k] >= least:
+        if size[k] >= limits.least:
             new[k] = new.max() + 1
-            facts["parted"] += 1
+            parted += 1
         elif longest > width:
             new[k] = -neighbour
-            facts["handed_over"] += 1
-    return new[part]
+            handed_over += 1
+    return new[part], handed_over, parted
 
 
 def _borders(cut: CutMesh, e: Edges, part: Ints, owner: Ints, wanted: Ints) -> dict[int, dict[int, float]]:

@@ -7,14 +7,14 @@ from meshjig.mesh.boundary_loops import summed_along
 from meshjig.mesh.halfedges import Edges, next_halfedge
 from meshjig.mesh.measure import sums
 
-__all__ = ["could_be_narrow"]
+__all__ = ["could_have_necks"]
 
 _STEP = 0.5  # widths between points of a border
 _NEAR = 1.5  # widths between two points of a border where a piece may be narrow
 _AROUND = 2.3  # widths of border between them at least: less of it holds no more than a square width
 
 
-def could_be_narrow(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Bools:
+def could_have_necks(V: Floats, F: Ints, e: Edges, piece: Ints, width: float) -> Bools:
     """Tell which pieces have two places of their border near each other that are far apart along it.
 
     A piece that something hangs on by less than the width is always among them; so are those whose border

@@ -1,4 +1,4 @@
-"""Which parts of pieces hang together by ways of some width on the surface."""
+"""Which parts of pieces are connected by paths of some width on the surface."""
 
 from itertools import product
 
@@ -6,17 +6,17 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from meshjig.layout.necks.border_distance import ALONG, Rim, between, distances_along, rim_of
+from meshjig.layout.necks.border_distance import ALONG, BorderPoints, between, border_points, distances_along
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import compact, edges
 
-__all__ = ["parts_by_width"]
+__all__ = ["width_components"]
 
 THROUGH = np.linspace(0, 1, 5)[1:-1]  # of the way through a face
 NEARLY = 0.95  # of half the width that must be free in there
 
 
-def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
+def width_components(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     """Divide pieces where they are narrower than a width.
 
     Parameters
@@ -29,12 +29,12 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     Returns
     -------
     part : (m,) int64
-        Faces of one piece have the same number when a way leads from one to the other that stays half the
+        Faces of one piece have the same number when a path leads from one to the other that stays half the
         width away from the borders of pieces; faces too near to a border go with the nearest part.
 
     Notes
     -----
-    Of every edge the stretches that are far enough from the borders are found. A way leads along these, and
+    Of every edge the stretches that are far enough from the borders are found. A path leads along these, and
     straight through faces from one to another.
     """
     F, kept = compact(F)
@@ -42,8 +42,8 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     inner = h[piece[h // 3] == piece[e.twin[h] // 3]]
     ends = e.E[e.edge_of_halfedge[inner]]
-    rim = rim_of(V, F, e, piece, width)
-    far = distances_along(V, ends, rim, width)
+    near = border_points(V, F, e, piece, width)
+    far = distances_along(ends, near)
     stretch, n = _stretches(far > width / 2)
     pairs = np.concatenate(
         [np.stack([stretch[:, k], n + ends[:, k]], 1)[stretch[:, k] >= 0] for k in (0, -1)]
@@ -52,7 +52,7 @@ def parts_by_width(V: Floats, F: Ints, piece: Ints, width: float) -> Ints:
     row[inner] = row[e.twin[inner]] = np.arange(len(inner))
     sides = row.reshape(-1, 3)
     label = connected(n + len(V), *pairs.T)[1]
-    pairs = np.concatenate([pairs, _through_faces(V, sides, ends, stretch, label, rim, width)])
+    pairs = np.concatenate([pairs, _through_faces(sides, ends, stretch, label, near)])
     core = _of_widest_side(sides, far, stretch, connected(n + len(V), *pairs.T)[1])
     return _filled(V, F, np.stack([inner // 3, e.twin[inner] // 3], 1), core)
 
@@ -73,10 +73,8 @@ def _of_widest_side(sides: Ints, far: Floats, stretch: Ints, label: Ints) -> Int
     return of_edge[sides[np.arange(len(sides)), most[sides].argmax(1)]]
 
 
-def _through_faces(
-    V: Floats, row: Ints, ends: Ints, stretch: Ints, label: Ints, rim: Rim, width: float
-) -> Ints:
-    """List pairs (k, 2) of stretches in different parts between which a straight way leads through a face."""
+def _through_faces(row: Ints, ends: Ints, stretch: Ints, label: Ints, near: BorderPoints) -> Ints:
+    """List pairs (k, 2) of stretches in different parts that a straight path through a face connects."""
     row = row[_torn(row, stretch, label)]
     first = np.array([_places(stretch, last=False), _places(stretch, last=True)])
     found: list[Ints] = [np.zeros((0, 2), np.int64)]
@@ -89,7 +87,7 @@ def _through_faces(
             runs = np.stack([stretch[a, p], stretch[b, q]], 1)
             tried = np.flatnonzero((runs >= 0).all(1) & (label[runs[:, 0]] != label[runs[:, 1]]))
             a, b, p, q, runs = a[tried], b[tried], p[tried], q[tried], runs[tried]
-            leads = _free_between(V, rim, (ends[a], ALONG[p]), (ends[b], ALONG[q]), NEARLY * width / 2)
+            leads = _free_between(near, (ends[a], ALONG[p]), (ends[b], ALONG[q]))
             found.append(runs[leads])
             a, b = a[~leads], b[~leads]
     return np.concatenate(found)
@@ -113,15 +111,15 @@ def _places(stretch: Ints, last: bool) -> Ints:
     return np.stack([(begin + end) // 2, begin, end], 1)
 
 
-def _free_between(
-    V: Floats, rim: Rim, one: tuple[Ints, Floats], other: tuple[Ints, Floats], least: float
-) -> Bools:
+def _free_between(near: BorderPoints, one: tuple[Ints, Floats], other: tuple[Ints, Floats]) -> Bools:
     """Tell between which points, each given as ends of an edge and place on it, all is far from borders."""
-    (P, N), (Q, M) = (tuple(between(X, *place) for X in (V, rim.N)) for place in (one, other))
+    (P, N), (Q, M) = (tuple(between(X, *place) for X in (near.V, near.N)) for place in (one, other))
     free = np.ones(len(P), bool)
     for t in THROUGH.tolist():
         left = np.flatnonzero(free)
-        free[left] = rim.distance(P[left] + t * (Q - P)[left], N[left] + t * (M - N)[left]) > least
+        free[left] = (
+            near.distance(P[left] + t * (Q - P)[left], N[left] + t * (M - N)[left]) > NEARLY * near.width / 2
+        )
     return free
 
 

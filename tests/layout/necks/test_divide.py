@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from meshjig.cut.overlay import overlay
-from meshjig.layout.necks.divide import divide_at_isthmuses
-from meshjig.layout.necks.width_components import parts_by_width
+from meshjig.layout.necks.divide import divide_at_necks
+from meshjig.layout.necks.width_components import width_components
 from meshjig.layout.stitch import region_graph, stitch
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Outlines
@@ -35,11 +35,11 @@ def head_of(cut):
 @pytest.mark.parametrize("bent", [False, True], ids=["flat", "bent"])
 def test_a_head_on_a_thin_neck_goes_to_the_piece_around_it(bent):
     cut = knobbed(NECK, bent)
-    divided, stitching = divide_at_isthmuses(cut, stitched(cut), 1.3 * NECK, 0.25)
+    divided, stitching = divide_at_necks(cut, stitched(cut), 1.3 * NECK, 0.25)
     piece = stitching.piece_of_region[divided.region]
     far_right = piece[np.argmax(cut.V[cut.F].mean(1)[:, 0])]
     assert (piece[head_of(cut)] == far_right).all()
-    assert stitching.facts["handed_over"] == 1
+    assert stitching.facts.handed_over == 1
     assert stitching.n_pieces == 2
 
 
@@ -47,7 +47,7 @@ def test_a_head_on_a_thin_neck_goes_to_the_piece_around_it(bent):
 def test_a_neck_wide_enough_stays(bent):
     cut = knobbed(NECK, bent)
     before = stitched(cut)
-    divided, stitching = divide_at_isthmuses(cut, before, 0.8 * NECK, 0.25)
+    divided, stitching = divide_at_necks(cut, before, 0.8 * NECK, 0.25)
     assert divided is cut
     np.testing.assert_array_equal(stitching.piece_of_region, before.piece_of_region)
 
@@ -55,8 +55,8 @@ def test_a_neck_wide_enough_stays(bent):
 def test_a_large_head_becomes_a_piece():
     cut = knobbed(NECK, False)
     share = 0.5 * HEAD**2 / (SIDE**2 / 2)
-    divided, stitching = divide_at_isthmuses(cut, stitched(cut), 1.3 * NECK, share)
-    assert stitching.facts["parted"] == 1
+    divided, stitching = divide_at_necks(cut, stitched(cut), 1.3 * NECK, share)
+    assert stitching.facts.parted == 1
     piece = stitching.piece_of_region[divided.region]
     area = np.bincount(piece, face_areas(cut.V, cut.F))
     assert area[piece[head_of(cut)][0]] == pytest.approx(HEAD**2, rel=0.1)
@@ -64,7 +64,7 @@ def test_a_large_head_becomes_a_piece():
 
 def test_regions_after_it_are_of_one_piece_and_make_up_the_same_faces():
     cut = knobbed(NECK, True)
-    divided, stitching = divide_at_isthmuses(cut, stitched(cut), 1.3 * NECK, 0.25)
+    divided, stitching = divide_at_necks(cut, stitched(cut), 1.3 * NECK, 0.25)
     assert len(stitching.piece_of_region) == divided.region.max() + 1
     pairs = np.unique(np.stack([divided.region, cut.label], 1), axis=0)
     assert len(pairs) == divided.region.max() + 1  # each lies in one label
@@ -84,5 +84,5 @@ def test_a_border_on_the_other_side_of_a_thin_sheet_is_not_near():
     )
     cut = overlay(atlas(V, both, uv), outlines)
     piece = cut.region
-    part = parts_by_width(cut.V, cut.F, piece, 2.0)
+    part = width_components(cut.V, cut.F, piece, 2.0)
     np.testing.assert_array_equal(np.unique(np.stack([piece, part], 1), axis=0)[:, 0], np.arange(3))

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from meshjig.layout.necks.neck_prefilter import could_be_narrow
+from meshjig.layout.necks.neck_prefilter import could_have_necks
 from meshjig.mesh.halfedges import edges
 from tests.cut.graphs import SIDE, flat_sheet, halved_sheet, wavy
 from tests.layout.necks.test_divide import NECK, knobbed
 
 
 def narrow(V, F, piece, width):
-    return could_be_narrow(V, F, edges(F), piece, width).tolist()
+    return could_have_necks(V, F, edges(F), piece, width).tolist()
 
 
 @pytest.mark.parametrize("bent", [False, True], ids=["flat", "bent"])
