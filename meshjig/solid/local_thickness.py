@@ -1,19 +1,25 @@
-"""How thick a wall can be at all: half the way through the model, by rays."""
+"""How thick a wall can be at all, half the way through the model by rays; and how thin walls came out."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
+from meshjig.errors import SolidError
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.measure import area_vectors, face_areas
+from meshjig.mesh.halfedges import border_halfedges
+from meshjig.mesh.measure import area_vectors, face_areas, mesh_volume
 from meshjig.mesh.rays import RayScene
 
-__all__ = ["inward_room", "thin_share"]
+__all__ = ["ThinFacts", "check_thickness", "inward_room", "refuse_crowds", "thin_share", "thinness"]
 
 _SHARE = 0.45  # of the way through the model; two walls meet at half
 _FAR = 1e9  # mm
 _TILT = np.deg2rad(35.0)
 _OPPOSITE = -0.7  # cosine between normals: a tilted ray counts when it ends on a surface that faces back
+_CROWDED = 1 / 3  # share of the area that may be thin
+_THIN = 0.8  # of the thickness
 
 
 def inward_room(V: Floats, F: Ints, d: Floats, enough: float = np.inf) -> Floats:
@@ -72,3 +78,77 @@ def _frame(d: Floats) -> tuple[Floats, Floats]:
     side = np.cross(d, axis)
     side /= np.maximum(np.linalg.norm(side, axis=1), 1e-300)[:, None]
     return side, np.cross(d, side)
+
+
+class ThinFacts(NamedTuple):
+    """Where walls came out too thin."""
+
+    thin_area_share: float  # of the area, that is under 0.8 of the thickness
+    min_thickness: float  # mm
+    thinnest_at: list[float]  # x, y, z
+
+
+def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> ThinFacts:
+    """Say how much of the area is too thin, how thin, and where.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    distance : (n,) float64, mm, from one sheet to the other
+    thickness : float, mm, that was wanted
+
+    Returns
+    -------
+    ThinFacts
+    """
+    least = int(distance.argmin())
+    share = thin_share(V, F, distance < _THIN * thickness)
+    return ThinFacts(share, float(distance[least]), V[least].tolist())
+
+
+def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
+    """Refuse walls that the model has no room for.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64
+    thickness : float, mm
+    room : (n,) float64, mm, as `inward_room` gives it
+
+    Raises
+    ------
+    SolidError
+        The thickness is over a third of a closed model's smallest extent or of an open model's middle one,
+        or twice what more than half of the surface has room for; the sentence names the largest thickness
+        that works.
+    """
+    largest = 2 * _quantile(room[F].mean(1), face_areas(V, F), 0.5)
+    closed = mesh_volume(V, F) > 0 and not len(border_halfedges(F))
+    third = float(np.sort(np.ptp(V[F.ravel()], axis=0))[0 if closed else 1]) / 3
+    if thickness > third:
+        largest = min(largest, third)
+    if thickness > largest:
+        raise _too_thick(thickness, largest)
+
+
+def refuse_crowds(V: Floats, F: Ints, thickness: float, room: Floats, distance: Floats) -> None:
+    """Refuse a wall that crosses itself where much of it is too thin as well: the model lacks the room."""
+    if thin_share(V, F, distance < _THIN * thickness) > _CROWDED:
+        fits = _quantile(room[F].mean(1), face_areas(V, F), _CROWDED) / _THIN
+        raise _too_thick(thickness, min(fits, _THIN * thickness))
+
+
+def _too_thick(thickness: float, largest: float) -> SolidError:
+    step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
+    return SolidError(
+        f"walls of {thickness:g} mm are too thick for this model",
+        hint=f"the largest thickness that works at this size is {np.floor(largest / step) * step:.3g} mm",
+    )
+
+
+def _quantile(values: Floats, weights: Floats, q: float) -> float:
+    order = np.argsort(values)
+    share = np.cumsum(weights[order])
+    return float(values[order[np.searchsorted(share, q * share[-1])]])

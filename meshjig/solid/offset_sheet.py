@@ -7,18 +7,21 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from meshjig.errors import SolidError
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.halfedges import border_halfedges
-from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.mesh.smoothing import Smoother
 from meshjig.solid.directions import smooth_normals
-from meshjig.solid.local_thickness import inward_room, thin_share
+from meshjig.solid.local_thickness import (
+    ThinFacts,
+    check_thickness,
+    inward_room,
+    refuse_crowds,
+    thinness,
+)
 from meshjig.solid.rounded_join import JoinFacts, rounded
 from meshjig.solid.surface_distance import SurfaceDistance
 from meshjig.solid.untangle_sheet import FoldFacts, untangle_sheet
 
-__all__ = ["ShellFacts", "check_thickness", "displacement", "offset_sheet", "thinness"]
+__all__ = ["ShellFacts", "displacement", "offset_sheet"]
 
 _POSITION_SCALE = 0.3  # of the thickness: bumps below it are not carried to the inner sheet
 _LEAST_ROOM = 0.15  # mm; a wall is not planned thinner
@@ -26,16 +29,6 @@ _ROUGHLY = 3e-3  # tolerance for what is small itself
 _CORRECTIONS = 2
 _EXACT = 0.02  # of the thickness; what moves less keeps the depth that was read
 _HOPELESS = 1e-3  # share of the faces that may be left crossing
-_CROWDED = 1 / 3  # share of the area that may be thin
-_THIN = 0.8  # of the thickness
-
-
-class ThinFacts(NamedTuple):
-    """Where walls came out too thin."""
-
-    thin_area_share: float  # of the area, that is under 0.8 of the thickness
-    min_thickness: float  # mm
-    thinnest_at: list[float]  # x, y, z
 
 
 @dataclass(frozen=True)
@@ -125,15 +118,8 @@ def offset_sheet(
     D, folds = untangle_sheet(V, F, D, thickness, distance)
     distance = gauge.read(D, _EXACT * thickness)[1]
     if folds.crossings_left > _HOPELESS * len(F) and not folds.outer_crossings:
-        _refuse_crowds(V, F, thickness, room, distance)
+        refuse_crowds(V, F, thickness, room, distance)
     return D, distance, SheetFacts(joined, folds)
-
-
-def _refuse_crowds(V: Floats, F: Ints, thickness: float, room: Floats, distance: Floats) -> None:
-    """Refuse a wall that crosses itself where much of it is too thin as well: the model lacks the room."""
-    if thin_share(V, F, distance < _THIN * thickness) > _CROWDED:
-        fits = _quantile(room[F].mean(1), face_areas(V, F), _CROWDED) / _THIN
-        raise _too_thick(thickness, min(fits, _THIN * thickness))
 
 
 class _Gauge:
@@ -155,65 +141,6 @@ class _Gauge:
             self._depth[old] = self._distance[old] = self.surface.distance(points)
         self._D[old] = D[old]
         return self._depth.copy(), self._distance.copy()
-
-
-def thinness(V: Floats, F: Ints, distance: Floats, thickness: float) -> ThinFacts:
-    """Say how much of the area is too thin, how thin, and where.
-
-    Parameters
-    ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
-    distance : (n,) float64, mm, from one sheet to the other
-    thickness : float, mm, that was wanted
-
-    Returns
-    -------
-    ThinFacts
-    """
-    least = int(distance.argmin())
-    share = thin_share(V, F, distance < _THIN * thickness)
-    return ThinFacts(share, float(distance[least]), V[least].tolist())
-
-
-def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
-    """Refuse walls that the model has no room for.
-
-    Parameters
-    ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
-    thickness : float, mm
-    room : (n,) float64, mm, as `inward_room` gives it
-
-    Raises
-    ------
-    SolidError
-        The thickness is over a third of a closed model's smallest extent or of an open model's middle one,
-        or twice what more than half of the surface has room for; the sentence names the largest thickness
-        that works.
-    """
-    largest = 2 * _quantile(room[F].mean(1), face_areas(V, F), 0.5)
-    closed = mesh_volume(V, F) > 0 and not len(border_halfedges(F))
-    third = float(np.sort(np.ptp(V[F.ravel()], axis=0))[0 if closed else 1]) / 3
-    if thickness > third:
-        largest = min(largest, third)
-    if thickness > largest:
-        raise _too_thick(thickness, largest)
-
-
-def _too_thick(thickness: float, largest: float) -> SolidError:
-    step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
-    return SolidError(
-        f"walls of {thickness:g} mm are too thick for this model",
-        hint=f"the largest thickness that works at this size is {np.floor(largest / step) * step:.3g} mm",
-    )
-
-
-def _quantile(values: Floats, weights: Floats, q: float) -> float:
-    order = np.argsort(values)
-    share = np.cumsum(weights[order])
-    return float(values[order[np.searchsorted(share, q * share[-1])]])
 
 
 def _depth(F: Ints, thickness: float, room: Floats, smoother: Smoother) -> Floats:

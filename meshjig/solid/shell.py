@@ -10,7 +10,8 @@ import numpy as np
 from meshjig.errors import SolidError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges
-from meshjig.solid.offset_sheet import ShellFacts, offset_sheet, thinness
+from meshjig.solid.local_thickness import thinness
+from meshjig.solid.offset_sheet import ShellFacts, offset_sheet
 from meshjig.solid.untangle_sheet import FoldFacts
 
 __all__ = ["Shell", "shell"]
