@@ -119,14 +119,14 @@ def test_piece_without_room_is_left_alone_and_said_so():
     assert F is small[1]
     assert facts.skipped == {"88": "its inner side is too small or too curved"}
     elsewhere = Shape(small[0] + [0, 0, 50.0], small[1])
-    assert engrave([elsewhere], ["88"], outer, D, FDM)[1]["skipped"] == {"88": "it has no inner side"}
+    assert engrave([elsewhere], ["88"], outer, D, FDM)[1].skipped == {"88": "it has no inner side"}
 
 
 def test_text_shrinks_to_the_least_height_and_no_further():
     heights = []
     for side in (10.0, 6.0, 5.5, 4.5):
         piece, outer, D = plate(side, side, 2.0)
-        heights.append(engrave([piece], ["4"], outer, D, FDM)[1]["least_height_mm"])
+        heights.append(engrave([piece], ["4"], outer, D, FDM)[1].least_height_mm)
     assert heights == [5.0, 4.5, 4.0, None]
 
 

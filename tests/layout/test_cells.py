@@ -77,5 +77,5 @@ def test_the_same_seed_gives_the_same_cells_and_another_one_others():
 
 
 def test_no_border_looks_like_another_where_pieces_are_to_be_unique():
-    assert clashes(laid_out(sphere), 0.15)[1]["congruent_borders"] > 0
-    assert clashes(laid_out(sphere, unique=True), 0.15)[1]["congruent_borders"] == 0
+    assert clashes(laid_out(sphere), 0.15)[1].congruent_borders > 0
+    assert clashes(laid_out(sphere, unique=True), 0.15)[1].congruent_borders == 0
