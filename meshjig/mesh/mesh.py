@@ -74,5 +74,13 @@ class Mesh:
         on_border[self.edges.E[self.edges.n_faces == 1]] = True
         return on_border
 
+    def moved(self, V: Floats) -> Mesh:
+        """The same faces, and what is known of their edges, with vertices (n, 3) elsewhere."""
+        if V is self.V:
+            return self
+        other = Mesh(V, self.F)
+        other.__dict__.update({k: v for k, v in self.__dict__.items() if k == "edges"})
+        return other
+
     def __getstate__(self) -> dict[str, Any]:
         return {"V": self.V, "F": self.F}  # to another process go the arrays alone

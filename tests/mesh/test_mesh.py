@@ -34,3 +34,12 @@ def test_counts_and_measures():
     middle = two.V[~two.is_border_vertex][:50]
     outward = middle / np.linalg.norm(middle, axis=1, keepdims=True)
     assert (np.einsum("ij,ij->i", outward, two.vertex_normals[~two.is_border_vertex][:50]) > 0.9).all()
+
+
+def test_a_moved_mesh_keeps_its_edges_and_measures_again():
+    mesh = Mesh(*sphere(500))
+    e, area = mesh.edges, mesh.areas
+    other = mesh.moved(2 * mesh.V)
+    assert other.edges is e
+    np.testing.assert_allclose(other.areas, 4 * area)
+    assert mesh.moved(mesh.V) is mesh
