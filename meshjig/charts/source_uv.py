@@ -3,21 +3,20 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from meshjig.errors import ChartError
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
-from meshjig.mesh.measure import area_vectors, barycentric, interpolate
+from meshjig.mesh.measure import area_vectors, barycentric, interpolate, sums
+from meshjig.mesh.mesh import Mesh
 
-__all__ = ["SourceUV", "is_as_loaded", "sample", "source_uv"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+__all__ = ["SourceUV", "are_connected", "is_as_loaded", "island_seams", "sample", "source_uv"]
 
 _SAME = 2.0**-30  # of the extent: vertices nearer than that, with equal UVs, are one
 _AS_LOADED = 1e-9  # of the extent: corners that near to the file's are those
-_INSET = 0.8  # of the way from a face's middle to its corners: what lies on a seam would belong to both sides
+_INSET = 0.8  # share from a face's middle to its corners: what lies on a seam would belong to both sides
+_APART = 0.5  # of an edge's length in the texture: sides farther apart are those of a seam
+_TORN = 0.02  # of an island's area
 
 
 class SourceUV(NamedTuple):
@@ -26,7 +25,7 @@ class SourceUV(NamedTuple):
     V: Floats  # (n, 3), mm
     F: Ints  # (m, 3)
     uv: Floats  # (n, 2), in widths of the texture
-    island: Ints  # (m,), faces that hang together in the texture
+    island: Ints  # (m,), faces that are connected in the texture
 
 
 def source_uv(source: Any, to_source: Floats) -> SourceUV:
@@ -114,3 +113,41 @@ def _sampled(V: Floats, F: Ints, source: SourceUV) -> tuple[Ints, Floats]:
     bary[:, 0] = 1 - bary[:, 1] - bary[:, 2]
     uv = interpolate(source.uv, source.F, follows.ravel(), bary)
     return island, uv.reshape(-1, 3, 2)
+
+
+def are_connected(mesh: Mesh, island: Ints) -> bool:
+    """Tell whether the faces of each island (m,) are connected."""
+    sides = np.repeat(island, 3)
+    wall = sides != sides[mesh.edges.twin]
+    return components(mesh.F, wall, mesh.edges.twin)[0] == len(np.unique(island))
+
+
+def island_seams(mesh: Mesh, island: Ints, uv: Floats) -> tuple[Bools, Bools]:
+    """Find the seams of islands on a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    island : (m,) int64
+    uv : (m, 3, 2) float64
+
+    Returns
+    -------
+    seam : (e,) bool, edges whose sides lie in different islands, or apart in one
+    torn : (m,) bool, faces of small parts that sampling has torn off their island, joined to it again
+    """
+    e = mesh.edges
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    t = e.twin[h]
+    here, there = h // 3, t // 3
+    start, end = uv.reshape(-1, 2), np.roll(uv, -1, 1).reshape(-1, 2)
+    length = (np.linalg.norm(end[h] - start[h], axis=1) + np.linalg.norm(end[t] - start[t], axis=1)) / 2
+    apart = np.linalg.norm(start[h] - end[t], axis=1) + np.linalg.norm(end[h] - start[t], axis=1)
+    seam = np.zeros(len(e.E), bool)
+    seam[e.edge_of_halfedge[h]] = (island[here] != island[there]) | (apart > _APART * length)
+    _, part = components(mesh.F, seam[e.edge_of_halfedge], e.twin)
+    size, of_island = (sums(x, mesh.areas, int(x.max()) + 1)[x] for x in (part, island))
+    torn: Bools = size < _TORN * of_island
+    mended = (island[here] == island[there]) & (torn[here] | torn[there])
+    seam[e.edge_of_halfedge[h[mended]]] = False
+    return seam, torn

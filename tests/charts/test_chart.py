@@ -2,8 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshjig.charts.arrange import lay_out, lie_along, shelves
-from meshjig.charts.chart import Chart
+from meshjig.charts.chart import Chart, lay_out, lie_along, shelves
 from meshjig.mesh.types import Mesh
 
 sides = st.floats(0.5, 200)

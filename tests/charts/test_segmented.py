@@ -1,6 +1,6 @@
 import pytest
 
-from meshjig.charts import build_atlas, single
+from meshjig.charts import build_atlas, segmented
 from meshjig.errors import ChartError
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.types import Mesh
@@ -24,6 +24,6 @@ def test_every_component_is_one_chart():
 
 
 def test_what_can_not_be_one_chart_is_refused_with_numbers(monkeypatch):
-    monkeypatch.setattr(single, "_EFFORT", 0)  # nothing is glued
+    monkeypatch.setattr(segmented, "_EFFORT", 0)  # nothing is glued
     with pytest.raises(ChartError, match=r"[2-9] charts are left, the largest with \d+%: use --charts auto"):
         build_atlas(Mesh(*sphere(800)), method="single")

@@ -3,10 +3,10 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from meshjig.charts.segment.neck_free import is_stout, stouter
-from meshjig.charts.segment.region import Regions
+from meshjig.charts.segment.region import Regions, is_neck_free, without_necks
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.measure import face_areas
+from meshjig.mesh.mesh import Mesh
 from tests.meshes import creased_box, disc
 
 
@@ -37,7 +37,7 @@ def with_thorn(width):
 
 def stout(mesh, chosen):
     region = Regions(mesh.F).disc(np.flatnonzero(chosen))
-    return region is not None and is_stout(region)
+    return region is not None and is_neck_free(region)
 
 
 def test_thin_necks_and_thorns_are_not_stout_and_wide_ones_are():
@@ -62,18 +62,18 @@ def test_a_disc_with_a_neck_of_a_single_edge_is_not_stout(seed):
         graph[a, b] = graph[b, c] = graph[c, a] = 1
     n_cores, _ = connected_components(graph.tocsr()[inner][:, inner], directed=False)
     if n_cores > 1:
-        assert not is_stout(region)
+        assert not is_neck_free(region)
 
 
 def test_a_neck_is_cut_and_a_thorn_given_away():
     mesh, chosen = dumbbell(1.2)
-    label = stouter(mesh.F, chosen.astype(np.int64), face_areas(*mesh))
+    label = without_necks(Mesh(*mesh), chosen.astype(np.int64), face_areas(*mesh))
     x = mesh.V[mesh.F].mean(1)
     left, right = label[(np.abs(x - [-25, 0, 0]).max(1) < 7)], label[(np.abs(x - [25, 0, 0]).max(1) < 7)]
     assert np.ptp(left) == np.ptp(right) == 0
     assert left[0] != right[0]
     mesh, chosen = with_thorn(1.2)
-    label = stouter(mesh.F, chosen.astype(np.int64), face_areas(*mesh))
+    label = without_necks(Mesh(*mesh), chosen.astype(np.int64), face_areas(*mesh))
     x = mesh.V[mesh.F].mean(1)
     assert np.ptp(label[x[:, 0] > 5]) == 0
 
