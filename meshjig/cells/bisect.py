@@ -25,7 +25,7 @@ def side_of(s: Surface, region: Ints, poles: tuple[int, int]) -> Floats:
     Parameters
     ----------
     s : Surface
-    region : (k,) int64, vertices that hang together, in ascending order
+    region : (k,) int64, connected vertices, in ascending order
     poles : two of them
 
     Returns
@@ -61,7 +61,7 @@ def _ends(s: Surface, region: Ints, graph: Any) -> list[Ints]:
 
 
 def _line(graph: Any, pole: int, ends: list[Ints]) -> Ints:
-    """Give the vertices on the shortest ways from a pole to both ends."""
+    """Give the vertices on the shortest paths from a pole to both ends."""
     from scipy.sparse.csgraph import dijkstra
 
     far, before = dijkstra(graph, indices=pole, return_predecessors=True)
@@ -75,7 +75,7 @@ def _line(graph: Any, pole: int, ends: list[Ints]) -> Ints:
 
 
 def _from(graph: Any, sources: Ints) -> Floats:
-    """Give distances from sources; where there is no way, that of the farthest vertex."""
+    """Give distances from sources; where there is no path, that of the farthest vertex."""
     from scipy.sparse.csgraph import dijkstra
 
     far: Floats = dijkstra(graph, indices=sources, min_only=True)

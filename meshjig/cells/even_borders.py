@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
-from meshjig.cells.power import Field
+from meshjig.cells.power import PowerField
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.measure import face_areas, sums, unit, vertex_normals
@@ -17,7 +17,9 @@ _SWEEPS = 24  # of averaging: it reaches over about five edges
 _FARTHEST = 1.2  # edges that a line may move
 _RINGS = 2  # faces on either side of a line that it may move through
 _ROUNDS = 8
-_NOTHING = Field(np.zeros((1, 1), np.int64), np.zeros((1, 1)))  # never asked: no three cells meet in a face
+_NOTHING = PowerField(
+    np.zeros((1, 1), np.int64), np.zeros((1, 1))
+)  # never asked: no three cells meet in a face
 
 
 class Line(NamedTuple):
@@ -41,7 +43,7 @@ class Evened(NamedTuple):
 
 
 def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
-    """Draw stretches of border anew, smoothly, through the faces beside them; all others stay.
+    """Draw stretches of border again, smoothly, through the faces beside them; all others stay.
 
     Parameters
     ----------

@@ -4,18 +4,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cells.power import Field
-from meshjig.cells.straighten import straightened
+from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
 from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched"]
+__all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched", "straighten"]
 
 NEAR = 0.06  # of an edge: a border that passes a vertex closer than this goes through it
 _STEEP = 0.7  # the same for a vertex on a crease that borders should follow
 _INSIDE = 0.15  # the least barycentric coordinate of a point where three cells meet
 _ROUNDS = 8
+_SLIDES = 12
 
 
 class Marched(NamedTuple):
@@ -28,7 +28,7 @@ class Marched(NamedTuple):
     e: Edges  # of F
 
 
-def march(s: Surface, owner: Ints, field: Field) -> Marched:
+def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
     """Cut faces where the values of two cells are equal, between vertices that the cells own.
 
     Two cells meet along a straight line in a face, three at a point. Where the line would pass close to
@@ -38,7 +38,7 @@ def march(s: Surface, owner: Ints, field: Field) -> Marched:
     ----------
     s : Surface
     owner : (n,) int64
-    field : Field
+    field : PowerField
 
     Returns
     -------
@@ -56,10 +56,10 @@ def march(s: Surface, owner: Ints, field: Field) -> Marched:
     a, b = e.E.T
     ends = e.E[~free[a] & ~free[b] & (owner[a] != owner[b])]
     point = len(V) + np.arange(len(ends))
-    return cut._replace(V=straightened(cut.V, cut.e, cut.cell, point, ends, NEAR))
+    return cut._replace(V=straighten(cut.V, cut.e, cut.cell, point, ends, NEAR))
 
 
-def _crossings(e: Edges, owner: Ints, field: Field) -> tuple[Ints, Floats]:
+def _crossings(e: Edges, owner: Ints, field: PowerField) -> tuple[Ints, Floats]:
     """Give the edges whose ends belong to different cells, and where along every edge (0 to 1) it crosses."""
     crossing = np.flatnonzero(owner[e.E[:, 0]] != owner[e.E[:, 1]])
     u, v = e.E[crossing].T
@@ -88,7 +88,9 @@ def _snapped(F: Ints, e: Edges, near: Floats, crossing: Ints, along: Floats) -> 
     return free
 
 
-def cut_faces(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Field, along: Floats) -> Marched:
+def cut_faces(
+    V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: PowerField, along: Floats
+) -> Marched:
     """Split every face by the labels of its corners; free corners have none."""
     a, b = e.E.T
     crossed = ~free[a] & ~free[b] & (owner[a] != owner[b])
@@ -140,7 +142,7 @@ def _turned(F: Ints, middle: Ints, first: Ints) -> tuple[Ints, Ints]:
     return np.take_along_axis(F, turn, 1).T, np.take_along_axis(middle, turn, 1).T
 
 
-def _meeting(field: Field, F: Ints, owner: Ints) -> Floats:
+def _meeting(field: PowerField, F: Ints, owner: Ints) -> Floats:
     """Give the place in a face where the three cells of its corners have equal values, (k, 3)."""
     value = np.stack([np.stack([field.at(F[:, c], owner[:, k]) for c in range(3)], 1) for k in range(3)], 1)
     known = np.isfinite(value).all((1, 2))
@@ -164,3 +166,41 @@ def pinched(cut: Marched) -> Bools:
     out = np.zeros(len(cut.V), bool)
     out[found[count > 1] // n] = True
     return out
+
+
+def straighten(V: Floats, e: Edges, cell: Ints, point: Ints, ends: Ints, near: float) -> Floats:
+    """Slide points of borders along the edges that they lie on, each towards the line between its neighbours.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm, vertices of a mesh whose edges follow borders
+    e : Edges
+    cell : (m,) int64, of each face
+    point : (k,) int64, vertices that lie on an edge
+    ends : (k, 2) int64, vertices at the ends of that edge
+    near : float, 0 to 0.5, of an edge: points stay that far from its ends
+
+    Returns
+    -------
+    (n, 3) float64, mm
+    """
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    border = h[cell[h // 3] != cell[e.twin[h] // 3]]
+    E = e.E[e.edge_of_halfedge[border]]
+    both = np.concatenate([E, E[:, ::-1]])
+    both = both[np.argsort(both[:, 0], kind="stable")]
+    degree = np.bincount(both[:, 0], minlength=len(V))
+    start = np.cumsum(degree) - degree
+    moving = degree[point] == 2
+    point, ends = point[moving], ends[moving]
+    p, q = both[start[point], 1], both[start[point] + 1, 1]
+    a, d = V[ends[:, 0]], V[ends[:, 1]] - V[ends[:, 0]]
+    squared = np.maximum(np.einsum("ij,ij->i", d, d), 1e-300)
+    W = V.copy()
+    for _ in range(_SLIDES):
+        x = W[point]
+        lp, lq = np.linalg.norm(W[p] - x, axis=1), np.linalg.norm(W[q] - x, axis=1)
+        m = (W[p] * lq[:, None] + W[q] * lp[:, None]) / np.maximum(lp + lq, 1e-300)[:, None]
+        t = np.clip(np.einsum("ij,ij->i", (m + x) / 2 - a, d) / squared, near, 1 - near)
+        W[point] = a + t[:, None] * d
+    return W

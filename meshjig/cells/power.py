@@ -7,12 +7,12 @@ import numpy as np
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["Field", "balance"]
+__all__ = ["PowerField", "balance"]
 
 _STEP = 0.35  # of the squared spacing: the largest change of a weight at once
 
 
-class Field(NamedTuple):
+class PowerField(NamedTuple):
     """For every vertex the seeds near it, and squared distance less weight for each of them."""
 
     seed: Ints  # (n, k), -1 where there are fewer
@@ -38,7 +38,7 @@ def balance(
     weights: Floats,
     rounds: int = 12,
     close: float = 0.004,
-) -> tuple[Floats, Field]:
+) -> tuple[Floats, PowerField]:
     """Find weights that give the power cells of seeds the areas asked for.
 
     Newton's method: along the border of two cells, area moves from one to the other in proportion to
@@ -58,7 +58,7 @@ def balance(
     Returns
     -------
     weights : (N,) float64, mm2
-    field : Field
+    field : PowerField
 
     References
     ----------
@@ -80,7 +80,7 @@ def balance(
             break
         weights = best + np.clip(share * step, -_STEP * size, _STEP * size)
         weights = weights - weights.mean()
-    return best, Field(seed, squared - np.append(best, 0.0)[seed])
+    return best, PowerField(seed, squared - np.append(best, 0.0)[seed])
 
 
 def _areas(seed: Ints, value: Floats, points: Floats, area: Floats, size: float) -> tuple[Floats, Any]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.cells.bisect import loops, poles_of, side_of
 from meshjig.cells.march import Marched
-from meshjig.cells.power import Field
+from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
 from meshjig.mesh.halfedges import next_halfedge
 from meshjig.mesh.measure import sums
@@ -83,7 +83,9 @@ def split_up(s: Surface, cut: Marched, owner: Ints, bad: Bools) -> list[Pair]:
     return out
 
 
-def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, spacing: float) -> Field:
+def cut_in_pairs(
+    s: Surface, field: PowerField, pairs: list[Pair], relative: Floats, spacing: float
+) -> PowerField:
     """Change values so that each pair of cells is parted along a line between its poles.
 
     Where their union ends stays as it was.
@@ -91,14 +93,14 @@ def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, 
     Parameters
     ----------
     s : Surface
-    field : Field
+    field : PowerField
     pairs : list of Pair; a later one may halve what an earlier one made
     relative : (N,) float64, areas of cells relative to one another
     spacing : float, mm
 
     Returns
     -------
-    Field
+    PowerField
     """
     seed, value = field.seed.copy(), field.value.copy()
     for pair in pairs:
@@ -119,7 +121,7 @@ def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, 
         last = rest.argmax(1)
         seed[near, first], seed[near, last] = pair.first, pair.second
         value[near, first], value[near, last] = both + np.maximum(-side, 0), both + np.maximum(side, 0)
-    return Field(seed, value)
+    return PowerField(seed, value)
 
 
 def _even_poles(

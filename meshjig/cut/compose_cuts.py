@@ -8,12 +8,12 @@ from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import barycentric, interpolate
 from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Mesh, Outlines
 
-__all__ = ["Further", "cut_further"]
+__all__ = ["ComposedCut", "compose_cuts"]
 
 _SAME_PLACE = 1e-6  # mm in the plane
 
 
-class Further(NamedTuple):
+class ComposedCut(NamedTuple):
     """A mesh cut twice, as if it had been cut once."""
 
     cut: CutMesh
@@ -22,9 +22,9 @@ class Further(NamedTuple):
     part_of: Ints  # (c,), the segments of the second outlines that the added ones are parts of, in order
 
 
-def cut_further(
+def compose_cuts(
     atlas: Atlas, outlines: Outlines, first: CutMesh, chosen: Ints, kept: Ints, second: CutMesh
-) -> Further:
+) -> ComposedCut:
     """Carry a cut of some faces of a cut mesh back to the atlas of the whole mesh.
 
     Parameters
@@ -39,7 +39,7 @@ def cut_further(
 
     Returns
     -------
-    Further
+    ComposedCut
         Vertices of the first cut keep their numbers. Where the second cut has been, it says which label
         and region faces have; its numbers follow those of the first.
     """
@@ -83,7 +83,7 @@ def cut_further(
     point = np.full(len(V) + 1, -1)
     point[point_vertex] = len(outlines.points) + np.arange(len(points))
     landed = np.where(second.point_vertex >= 0, number[second.point_vertex], -1)
-    return Further(cut, whole, point[landed], second.cut_segment[order])
+    return ComposedCut(cut, whole, point[landed], second.cut_segment[order])
 
 
 def _in_mesh(mesh: Mesh, first: CutMesh, on: Ints, bary: Floats) -> tuple[Ints, Floats]:

@@ -1,20 +1,21 @@
 """Cut a mesh along planar outlines, through its charts: the whole of it, step by step."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from meshjig.cut.assemble_mesh import assemble_faces, place_vertices
-from meshjig.cut.cycles import cycles
+from meshjig.cut.cycles import Cycles, cycles
 from meshjig.cut.edge_nodes import edge_nodes
-from meshjig.cut.inner_halfedges import make_ring, wire
-from meshjig.cut.islands import without_islands
-from meshjig.cut.places import corner_frames, half_edge_places, landing_weights
+from meshjig.cut.inner_halfedges import Ring, make_ring, wire
+from meshjig.cut.islands import Origin, in_mesh, without_islands
+from meshjig.cut.places import Places, corner_frames, half_edge_places, hit_weights
 from meshjig.cut.region_labels import joined_over_seams, label_at, label_regions, regions
 from meshjig.cut.snap import snap
-from meshjig.cut.triangulate import fill
-from meshjig.cut.uv_mesh import make_sheet
-from meshjig.mesh.types import Atlas, CutMesh, Outlines
+from meshjig.cut.triangulate import Filling, fill
+from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
+from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Outlines
 
-__all__ = ["overlay"]
+__all__ = ["Faces", "assemble_faces", "overlay", "place_vertices"]
 
 
 def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
@@ -52,31 +53,31 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     """
     mesh = atlas.mesh
     U, graph = snap(atlas.uv, outlines)
-    sheet = make_sheet(mesh.V, mesh.F, U, atlas.F_uv, atlas.chart_of_face)
-    sheet, origin, graph, (crossings, landings, links) = without_islands(sheet, graph)
+    uv_mesh = make_uv_mesh(mesh.V, mesh.F, U, atlas.F_uv, atlas.chart_of_face)
+    uv_mesh, origin, graph, (crossings, hits, face_segments) = without_islands(uv_mesh, graph)
 
-    nodes = edge_nodes(sheet, graph, crossings)
-    ring = make_ring(sheet, nodes, links.face)
-    wiring = wire(sheet, graph, nodes, ring, links, (crossings, landings))
+    nodes = edge_nodes(uv_mesh, graph, crossings)
+    ring = make_ring(uv_mesh, nodes, face_segments.face)
+    wiring = wire(uv_mesh, graph, nodes, ring, face_segments, (crossings, hits))
     parts = cycles(wiring.next)
     places = half_edge_places(
-        sheet, ring, nodes, links, landing_weights(sheet, graph, landings), wiring.slot, wiring.leaving
+        uv_mesh, ring, nodes, face_segments, hit_weights(uv_mesh, graph, hits), wiring.slot, wiring.leaving
     )
-    places, filling = fill(places, parts, corner_frames(sheet, ring.faces))
-    n_regions, *of = regions(sheet, ring, parts)
-    faces = assemble_faces(sheet, ring, places, parts, filling, (of[0], of[1]))
-    V, vertex_face, vertex_bary = place_vertices(sheet, origin, ring, places, parts, filling)
+    places, filling = fill(places, parts, corner_frames(uv_mesh, ring.faces))
+    n_regions, *of = regions(uv_mesh, ring, parts)
+    faces = assemble_faces(uv_mesh, ring, places, parts, filling, (of[0], of[1]))
+    V, vertex_face, vertex_bary = place_vertices(uv_mesh, origin, ring, places, parts, filling)
 
-    label, known, n_conflicts = label_regions(graph, links, len(ring.next), parts, n_regions, of[1])
+    label, known, n_conflicts = label_regions(graph, face_segments, len(ring.next), parts, n_regions, of[1])
     sample = np.zeros(n_regions, np.int64)
     sample[faces.region[::-1]] = faces.face[::-1]
     for r in np.flatnonzero(~known).tolist():
-        label[r] = label_at(graph, sheet.U[sheet.F_uv[sample[r], 0]])
+        label[r] = label_at(graph, uv_mesh.U[uv_mesh.F_uv[sample[r], 0]])
     label_of_face = label[faces.region]
 
     vertex_of_place = np.full(len(graph.points), -1)
-    vertex_of_place[landings.point[::-1]] = places.first_landing + np.arange(len(landings.point))[::-1]
-    forth = len(ring.next) + np.arange(len(links.face))
+    vertex_of_place[hits.point[::-1]] = places.first_hit + np.arange(len(hits.point))[::-1]
+    forth = len(ring.next) + np.arange(len(face_segments.face))
     return CutMesh(
         V=V,
         F=faces.F,
@@ -86,19 +87,78 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
         vertex_face=vertex_face,
         vertex_bary=vertex_bary,
         point_vertex=vertex_of_place[graph.point],
-        cuts=np.stack([places.vertex[forth], places.vertex[forth + len(links.face)]], 1),
-        cut_segment=graph.source[links.segment],
-        cut_param=links.param,
+        cuts=np.stack([places.vertex[forth], places.vertex[forth + len(face_segments.face)]], 1),
+        cut_segment=graph.source[face_segments.segment],
+        cut_param=face_segments.param,
         facts={
             "crossings": len(crossings.side),
             "zero_predicates": crossings.n_zero,
             "ties": nodes.n_ties,
             "seam_merged": nodes.n_merged,
             "respaced": nodes.n_respaced,
-            "split_faces": len(sheet.F) - len(mesh.F),
+            "split_faces": len(uv_mesh.F) - len(mesh.F),
             "untangled": filling.n_untangled,
             "steiner": len(filling.centre_part),
             "label_conflicts": n_conflicts,
             "largest_part": int(parts.size.max(initial=0)),
         },
     )
+
+
+class Faces(NamedTuple):
+    """The faces of the cut mesh: untouched ones first."""
+
+    F: Ints  # (f, 3)
+    face: Ints  # (f,), the face of the UV mesh that each was cut from
+    region: Ints  # (f,)
+
+
+def assemble_faces(
+    uv_mesh: UvMesh, ring: Ring, places: Places, parts: Cycles, filling: Filling, regions: tuple[Ints, Ints]
+) -> Faces:
+    """Put untouched faces and the triangles in cut ones together.
+
+    Parameters
+    ----------
+    regions : (of_face, of_part)
+    """
+    of_face, of_part = regions
+    untouched = np.flatnonzero(ring.row < 0)
+    n_placed = places.n_vertices
+    vertex = np.append(places.vertex, n_placed + np.arange(len(filling.centre_part)))
+    face_of_part = ring.faces[places.row[parts.members[parts.first]]]
+    return Faces(
+        np.concatenate([uv_mesh.F[untouched], vertex[filling.T]]),
+        np.concatenate([untouched, face_of_part[filling.part]]),
+        np.concatenate([of_face[untouched], of_part[filling.part]]),
+    )
+
+
+def place_vertices(
+    uv_mesh: UvMesh, origin: Origin, ring: Ring, places: Places, parts: Cycles, filling: Filling
+) -> tuple[Floats, Ints, Floats]:
+    """Place all vertices of the cut mesh.
+
+    Returns
+    -------
+    V : (n, 3) float64
+    face : (n,) int64, a face of the mesh that each lies in
+    bary : (n, 3) float64, where it lies in that face
+    """
+    n_old, n_placed = len(uv_mesh.V), places.n_vertices
+    face = np.zeros(n_placed + len(filling.centre_part), np.int64)
+    bary = np.zeros((len(face), 3))
+    for k in range(3):
+        face[uv_mesh.F[:, k]] = np.arange(len(uv_mesh.F))
+    bary[:n_old] = uv_mesh.F[face[:n_old]] == np.arange(n_old)[:, None]
+    new = np.flatnonzero(places.vertex >= n_old)
+    face[places.vertex[new]] = ring.faces[places.row[new]]
+    bary[places.vertex[new]] = places.bary[new]
+    face[n_placed:] = ring.faces[places.row[parts.members[parts.first[filling.centre_part]]]]
+    bary[n_placed:] = filling.centre_bary
+
+    V = np.empty((len(face), 3))
+    V[:n_old] = uv_mesh.V
+    V[n_old:] = np.einsum("nk,nkd->nd", bary[n_old:], uv_mesh.V[uv_mesh.F[face[n_old:]]])
+    face, bary = in_mesh(origin, face, bary)
+    return V, face, bary

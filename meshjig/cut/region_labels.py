@@ -1,22 +1,22 @@
-"""Which label each part of the cut mesh has, and which parts hang together."""
+"""Which label each part of the cut mesh has, and which parts are connected."""
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from meshjig.cut.cycles import Cycles
-from meshjig.cut.face_segments import Links
 from meshjig.cut.inner_halfedges import Ring
 from meshjig.cut.predicates import orient, vertex_left_of_segment
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import Sheet
+from meshjig.cut.trace import FaceSegments
+from meshjig.cut.uv_mesh import UvMesh
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["joined_over_seams", "label_at", "label_regions", "regions"]
 
 
-def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
+def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
     """Join parts of faces over sides of the mesh; outlines and seams are walls.
 
     Returns
@@ -25,16 +25,16 @@ def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
     of_face : (m,) int64, the region of untouched faces, -1 for cut ones
     of_part : (c,) int64, the region of each part of the cut faces
     """
-    m = len(sheet.F)
+    m = len(uv_mesh.F)
     untouched = ring.row < 0
-    one, other = sheet.faces[:, 0], sheet.faces[:, 1]
+    one, other = uv_mesh.faces[:, 0], uv_mesh.faces[:, 1]
     inner = np.flatnonzero(other >= 0)
     both = inner[untouched[one[inner]] & untouched[other[inner]]]
     rows, cols = [one[both]], [other[both]]
 
     # ring half-edges on the same interval of the same side are neighbours
     half = 3 * ring.faces[ring.face] + ring.corner
-    side = sheet.side[half]
+    side = uv_mesh.side[half]
     part = m + parts.of_half_edge[: len(half)]
     order = np.argsort(ring.interval, kind="stable")
     interval, its_side = ring.interval[order], side[order]
@@ -60,7 +60,7 @@ def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
 
 
 def label_regions(
-    graph: Graph, links: Links, n_ring: int, parts: Cycles, n: int, of_part: Ints
+    graph: Graph, face_segments: FaceSegments, n_ring: int, parts: Cycles, n: int, of_part: Ints
 ) -> tuple[Ints, Bools, int]:
     """Label regions by the outlines that bound them.
 
@@ -70,8 +70,10 @@ def label_regions(
     known : (n,) bool, False where no outline bounds the region
     n_conflicts : int, parts with an outline that says otherwise
     """
-    left, right = graph.left[links.segment], graph.right[links.segment]
-    said = np.concatenate([np.where(links.mirrored, right, left), np.where(links.mirrored, left, right)])
+    left, right = graph.left[face_segments.segment], graph.right[face_segments.segment]
+    said = np.concatenate(
+        [np.where(face_segments.mirrored, right, left), np.where(face_segments.mirrored, left, right)]
+    )
     where = of_part[parts.of_half_edge[n_ring:]]
     values, said = np.unique(said, return_inverse=True)
     key, count = np.unique(where * np.int64(max(len(values), 1)) + said, return_counts=True)

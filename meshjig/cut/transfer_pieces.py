@@ -7,10 +7,10 @@ from meshjig.mesh.components import components
 from meshjig.mesh.measure import barycentric, face_areas
 from meshjig.mesh.types import GAP, CutMesh, Floats, Ints, Mesh
 
-__all__ = ["carry_pieces"]
+__all__ = ["transfer_pieces"]
 
 
-def carry_pieces(
+def transfer_pieces(
     mesh: Mesh, without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh
 ) -> tuple[Ints, Ints]:
     """Name the parts that are left between gaps after the pieces of the same surface without gaps.

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshjig.cells import CellMesh, cell_atlas, knob_outlines
-from meshjig.cut import Further, fold, overlay
+from meshjig.cut import ComposedCut, merge_periodic, overlay
 from meshjig.layout.interlock import Interlock, interlock
 from meshjig.layout.layout import Layout
 from meshjig.layout.seam_smoothing import even_seams
@@ -49,7 +49,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
         Of the same pieces. The stitching's facts tell how many borders lie on seams (seam_borders) and
         how many of those have a knob now (seam_knobs).
     """
-    locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+    locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
     size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
     pairs = _plain_over_seams(layout, locks, LONG * size)
     layout, discs = even_seams(layout)
@@ -134,7 +134,7 @@ def _like_the_others(locks: Interlock, size: float, least_neck: float) -> float:
     return float(np.clip(max(head, OF_NECK * least_neck) / (HEAD * size), *SIZES))
 
 
-def _with_more(knobs: Knobs, more: Knobs, further: Further, n_segments: int) -> Knobs:
+def _with_more(knobs: Knobs, more: Knobs, further: ComposedCut, n_segments: int) -> Knobs:
     """Add knobs of the second outlines to those of the first, which have that many segments."""
     edge, on_none = knobs.edge, np.full(len(more.neck), -1)
     return Knobs(

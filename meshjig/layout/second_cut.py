@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from meshjig.cut import Further, cut_further
+from meshjig.cut import ComposedCut, compose_cuts
 from meshjig.layout.layout import Layout
 from meshjig.mesh.types import CutMesh, Ints
 
@@ -15,7 +15,7 @@ __all__ = ["recut"]
 
 def recut(
     layout: Layout, chosen: Ints, kept: Ints, second: CutMesh, piece_of_label: Ints
-) -> tuple[Layout, Further]:
+) -> tuple[Layout, ComposedCut]:
     """Take a further cut of some faces into a layout.
 
     Parameters
@@ -30,10 +30,10 @@ def recut(
     -------
     Layout
         Its knobs are those of the layout that was given.
-    Further
+    ComposedCut
         How the second cut was taken in.
     """
-    further = cut_further(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
+    further = compose_cuts(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
     label = np.zeros(int(second.region.max(initial=-1)) + 1, np.int64)
     label[second.region] = second.label
     known = layout.stitching.piece_of_region[: int(layout.cut.region.max(initial=-1)) + 1]

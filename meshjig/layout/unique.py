@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.cut import fold
+from meshjig.cut import merge_periodic
 from meshjig.layout.congruent import Border, borders, congruent_borders, interchangeable
 from meshjig.layout.layout import Layout
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
@@ -30,7 +30,7 @@ def clashes(layout: Layout, tolerance: float) -> tuple[Ints, dict[str, Any]]:
     edges : (k,) int64, as Knobs.edge counts them: drawn anew, their borders would be unlike the rest
     facts : {"congruent_borders": pairs, "interchangeable_pieces": pairs}
     """
-    cut = fold(layout.cut, layout.outlines)
+    cut = merge_periodic(layout.cut, layout.outlines)
     rims = borders(cut, layout.piece_of_face)
     alike = congruent_borders(cut, rims, tolerance)
     swaps = interchangeable(cut, rims, tolerance)

@@ -8,7 +8,7 @@ import numpy as np
 
 from meshjig.charts import MappedAtlas
 from meshjig.check import touched_pieces
-from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
+from meshjig.cut import cut_curves, gap_outlines, merge_periodic, overlay, transfer_pieces
 from meshjig.errors import OptionError
 from meshjig.layout.cells import cell_layout
 from meshjig.layout.interlock import interlock
@@ -94,7 +94,7 @@ def make_puzzle(
         beside.cancel()
         raise
     with stages("check"):
-        locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+        locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
         names = [f"piece_{i + 1:03d}" for i in range(len(solids))]
         touched = touched_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [names[i] for i in sorted(touched)]
@@ -191,7 +191,7 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
         atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
     )
     cut = overlay(atlas, band)
-    piece, specks = carry_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
+    piece, specks = transfer_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
     area = face_areas(cut.V, cut.F)
     return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from meshjig.cells.distances import nearest, surface_graph, within
+from meshjig.cells.distances import nearest, within
+from meshjig.cells.surface import surface_graph
 from meshjig.mesh.halfedges import edges
 from tests.meshes import creased_box, cylinder, disc, sphere
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from meshjig.cells.discs import shapes
 from meshjig.cells.march import march
-from meshjig.cells.power import Field
+from meshjig.cells.power import PowerField
 from meshjig.cells.refine import places, refine
 from meshjig.cells.surface import surface
 from meshjig.mesh.components import is_disc
@@ -17,7 +17,7 @@ from tests.meshes import cylinder, disc, sphere, torus
 def in_plane(V, points):
     """The exact values of cells around points: squared distances."""
     value = ((V[:, None] - points) ** 2).sum(2)
-    return Field(np.tile(np.arange(len(points)), (len(V), 1)), value)
+    return PowerField(np.tile(np.arange(len(points)), (len(V), 1)), value)
 
 
 def test_borders_lie_exactly_between_two_seeds_in_the_plane():

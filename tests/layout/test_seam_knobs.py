@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import meshjig.layout.tiles
-from meshjig.cut import cut_curves, fold
+from meshjig.cut import cut_curves, merge_periodic
 from meshjig.layout.interlock import interlock
 from meshjig.layout.tiles import tile_layout
 from meshjig.mesh.components import is_disc
@@ -44,7 +44,7 @@ def classic(atlas):
 
 
 def locks_of(layout):
-    return interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+    return interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
 
 
 def test_knobs_cross_the_seams_and_keep_every_promise(classic):

@@ -8,12 +8,12 @@ from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["Patches", "folded", "mirrored", "patches", "projected", "rims", "scaled", "simple", "subset"]
+__all__ = ["CellPatches", "folded", "mirrored", "patches", "projected", "rims", "scaled", "simple", "subset"]
 
 _SLIVER = 0.01  # mm; faces of less height hardly matter
 
 
-class Patches(NamedTuple):
+class CellPatches(NamedTuple):
     """All cells side by side, as one mesh in which they share no vertex."""
 
     V: Floats  # (k, 3), mm
@@ -24,15 +24,15 @@ class Patches(NamedTuple):
     area: Floats  # (m,), of a face in space, mm2
 
 
-def patches(V: Floats, F: Ints, cell: Ints) -> Patches:
+def patches(V: Floats, F: Ints, cell: Ints) -> CellPatches:
     """Take cells apart: a vertex on a border has a copy for each cell."""
     n = int(cell.max(initial=-1)) + 1
     key = np.repeat(cell, 3) * np.int64(len(V)) + F.ravel()
     found, corner = np.unique(key, return_inverse=True)
-    return Patches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n, face_areas(V, F))
+    return CellPatches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n, face_areas(V, F))
 
 
-def projected(p: Patches) -> Floats:
+def projected(p: CellPatches) -> Floats:
     """Look at every cell along its mean normal, (k, 2)."""
     total = np.stack([sums(p.cell, x, p.n) for x in area_vectors(p.V, p.F).T], 1)
     normal = unit(total + 1e-12)
@@ -42,13 +42,13 @@ def projected(p: Patches) -> Floats:
     return np.stack([np.einsum("ij,ij->i", p.V, axis[p.of_vertex]) for axis in (x, y)], 1)
 
 
-def mirrored(p: Patches, uv: Floats) -> Bools:
+def mirrored(p: CellPatches, uv: Floats) -> Bools:
     """Tell which faces are mirrored or empty, (m,)."""
     out: Bools = ~(face_areas(uv, p.F) > 1e-6 * p.area)
     return out
 
 
-def folded(p: Patches, uv: Floats) -> Bools:
+def folded(p: CellPatches, uv: Floats) -> Bools:
     """Tell which cells have a mirrored or empty face, unless it is hardly there, (n,)."""
     fold = np.flatnonzero(mirrored(p, uv))
     x = p.V[p.F[fold]]
@@ -58,13 +58,13 @@ def folded(p: Patches, uv: Floats) -> Bools:
     return out
 
 
-def scaled(p: Patches, uv: Floats) -> Floats:
+def scaled(p: CellPatches, uv: Floats) -> Floats:
     """Give each cell the area in the plane that it has in space."""
     size = sums(p.cell, p.area, p.n) / np.maximum(sums(p.cell, np.abs(face_areas(uv, p.F)), p.n), 1e-300)
     return uv * np.sqrt(size)[p.of_vertex, None]
 
 
-def simple(p: Patches, uv: Floats) -> Bools:
+def simple(p: CellPatches, uv: Floats) -> Bools:
     """Tell which cells have a border that does not meet itself in the plane, (n,)."""
     import shapely
 
@@ -74,7 +74,7 @@ def simple(p: Patches, uv: Floats) -> Bools:
     return out
 
 
-def rims(p: Patches) -> tuple[Ints, Floats]:
+def rims(p: CellPatches) -> tuple[Ints, Floats]:
     """Order the border of every cell: its vertices, cell by cell, and how far along each is, mm.
 
     Cells are discs; borders run with the cell on their left.
@@ -96,10 +96,10 @@ def rims(p: Patches) -> tuple[Ints, Floats]:
     return order, done[order]
 
 
-def subset(p: Patches, chosen: Bools) -> tuple[Patches, Ints]:
+def subset(p: CellPatches, chosen: Bools) -> tuple[CellPatches, Ints]:
     """Take some of the cells, and say which vertices they have."""
     faces = chosen[p.cell]
     F, kept = compact(p.F[faces])
     number = np.cumsum(chosen) - 1
     cell, of_vertex = number[p.cell[faces]], number[p.of_vertex[kept]]
-    return Patches(p.V[kept], F, cell, of_vertex, int(chosen.sum()), p.area[faces]), kept
+    return CellPatches(p.V[kept], F, cell, of_vertex, int(chosen.sum()), p.area[faces]), kept

@@ -1,27 +1,75 @@
-"""As-rigid-as-possible flattening of many cells at once."""
+"""Many cells flattened at once: as round discs, and as rigidly as possible."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.cells.flatten.planar import Patches
-from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Floats
+from meshjig.cells.flatten.planar import CellPatches, rims, scaled
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.measure import sums, unit
+from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["arap"]
+__all__ = ["arap", "tutte"]
 
 Complex = NDArray[np.complex128]
 
 _LEAST, _MOST = 0.02, 50.0  # bounds on cotangents: a sliver must neither tear nor rule
 
 
-def arap(p: Patches, uv: Floats, iterations: int = 10) -> Floats:
+def tutte(p: CellPatches) -> Floats:
+    """Put the border of every cell on a circle and all else at the mean of its neighbours.
+
+    Parameters
+    ----------
+    p : CellPatches, discs
+
+    Returns
+    -------
+    uv : (k, 2) float64, mm, each cell of its own area
+
+    References
+    ----------
+    Tutte, "How to Draw a Graph", 1963.
+    """
+    from scipy.sparse import coo_matrix, diags
+    from scipy.sparse.linalg import splu
+
+    E, k = edges(p.F).E, len(p.V)
+    W = coo_matrix((np.ones(len(E)), (E[:, 0], E[:, 1])), shape=(k, k)).tocsr()
+    W = W + W.T
+    uv, border = np.zeros((k, 2)), np.zeros(k, bool)
+    rim, _ = rims(p)
+    of_rim = p.of_vertex[rim]
+    count = np.bincount(of_rim, minlength=p.n)
+    step = np.linalg.norm(p.V[rim] - p.V[_following(rim, count)], axis=1)
+    step = np.maximum(step, (0.05 * sums(of_rim, step, p.n) / count)[of_rim])  # no two fall together
+    total = sums(of_rim, step, p.n)
+    along = np.cumsum(step) - step - (np.cumsum(total) - total)[of_rim]
+    angle = 2 * np.pi * along / total[of_rim]
+    uv[rim], border[rim] = np.stack([np.cos(angle), np.sin(angle)], 1), True
+    free = np.flatnonzero(~border)
+    if len(free):
+        L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()[free]
+        solver = splu(L[:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+        uv[free] = solver.solve(-(L[:, border] @ uv[border]))
+    return scaled(p, uv)
+
+
+def _following(rim: Ints, count: Ints) -> Ints:
+    """Give the vertex that comes after each one of its loop."""
+    last = np.cumsum(count) - 1
+    after = np.append(rim[1:], rim[:1])
+    after[last] = rim[last + 1 - count]
+    return after
+
+
+def arap(p: CellPatches, uv: Floats, iterations: int = 10) -> Floats:
     """Bring the faces of flattened cells as near to rigid copies as they can be.
 
     All cells make one system with one factorisation. Faces may come out mirrored; the caller checks.
 
     Parameters
     ----------
-    p : Patches
+    p : CellPatches
     uv : (k, 2) float64, mm, the start
     iterations : int
 
@@ -58,7 +106,7 @@ def arap(p: Patches, uv: Floats, iterations: int = 10) -> Floats:
     return np.stack([z.real, z.imag], 1)
 
 
-def _laid_flat(p: Patches) -> Complex:
+def _laid_flat(p: CellPatches) -> Complex:
     """Give each face in a plane of its own, as complex numbers, (m, 3)."""
     a = p.V[p.F[:, 0]]
     d, e = p.V[p.F[:, 1]] - a, p.V[p.F[:, 2]] - a
