@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges
 from meshjig.mesh.types import Ints
 
@@ -25,16 +26,12 @@ def shapes(F: Ints, cell: Ints, n: int, e: Edges) -> Ints:
     (n,) int64, the Euler number: 1 for a disc, 0 for a ring; -99 for a cell that is empty, in parts, or
     touches itself at a vertex
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     twin = e.twin
     h = np.arange(len(twin))
     of, corner = np.repeat(cell, 3), F.ravel()
     on_rim = (twin == h) | (of != of[twin])
     a = np.flatnonzero(~on_rim & (twin > h))
-    graph = coo_matrix((np.ones(len(a), np.int8), (a // 3, twin[a] // 3)), shape=(len(F), len(F)))
-    k, part = connected_components(graph, directed=False)
+    k, part = components(F, on_rim, twin)
     of_part = np.empty(k, np.int64)
     of_part[part] = cell
     home = np.full(int(F.max(initial=-1)) + 1, -1)

@@ -9,6 +9,7 @@ from meshjig.cells.march import Marched, march
 from meshjig.cells.power import PowerField
 from meshjig.cells.repair_topology import Pair, cut_in_pairs, pair_up, split_up
 from meshjig.cells.surface import Surface
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -91,15 +92,10 @@ def connect_labels(E: Ints, owner: Ints, area: Floats) -> Ints:
     -------
     (n,) int64
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    n = len(owner)
     owner = owner.copy()
     for _ in range(_STRAY_ROUNDS):
         a, b = E[owner[E[:, 0]] == owner[E[:, 1]]].T
-        graph = coo_matrix((np.ones(len(a), np.int8), (a, b)), shape=(n, n))
-        k, part = connected_components(graph, directed=False)
+        k, part = connected(len(owner), a, b)
         size, label = sums(part, area, k), np.empty(k, np.int64)
         label[part] = owner
         largest = np.empty(int(owner.max()) + 1, np.int64)

@@ -6,6 +6,7 @@ import numpy as np
 
 from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
+from meshjig.mesh.arrays import starts
 from meshjig.mesh.halfedges import Edges, edges
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -190,7 +191,7 @@ def straighten(V: Floats, e: Edges, cell: Ints, point: Ints, ends: Ints, near: f
     both = np.concatenate([E, E[:, ::-1]])
     both = both[np.argsort(both[:, 0], kind="stable")]
     degree = np.bincount(both[:, 0], minlength=len(V))
-    start = np.cumsum(degree) - degree
+    start = starts(degree)
     moving = degree[point] == 2
     point, ends = point[moving], ends[moving]
     p, q = both[start[point], 1], both[start[point] + 1, 1]

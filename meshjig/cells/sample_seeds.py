@@ -9,6 +9,7 @@ import numpy as np
 from meshjig.cells.distances import nearest
 from meshjig.cells.surface import Surface
 from meshjig.errors import OptionError
+from meshjig.mesh.arrays import starts
 from meshjig.mesh.measure import sums, vertex_normals
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -126,9 +127,9 @@ def _halved(X: Floats, area: Floats, part: Ints, left: Ints) -> tuple[Ints, Ints
     run = np.cumsum(area[order])
     before = np.empty(len(X))
     before[order] = run - area[order] / 2
-    start = np.cumsum(total) - total
+    start = starts(total)
     first = left // 2
-    cut = (left > 1) & True
+    cut = left > 1
     high = cut[part] & (before - start[part] > (total * first / left)[part])
     number = np.where(cut, n + np.cumsum(cut) - 1, 0)
     return np.where(high, number[part], part), np.append(np.where(cut, first, left), (left - first)[cut])

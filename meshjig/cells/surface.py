@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.halfedges import Edges, edges, next_halfedge
 from meshjig.mesh.measure import area_vectors, face_areas, sums, unit, vertex_normals
 from meshjig.mesh.types import Bools, Floats, Ints
@@ -44,12 +45,10 @@ class Surface:
 
 def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
     """Measure a mesh, V (n, 3) in mm and F (m, 3), without unused vertices; bend as in surface_graph."""
-    from scipy.sparse.csgraph import connected_components
-
     e = edges(F)
     graph = surface_graph(V, F, e, bend)
     area = sums(F.ravel(), np.repeat(face_areas(V, F) / 3, 3), len(V))
-    k, component = connected_components(graph, directed=False)
+    k, component = connected(len(V), *e.E.T)
     closed = ~np.isin(np.arange(k), component[e.E[e.n_faces == 1]])
     steep = _steep(V, F, e) if bend else np.zeros(len(V), bool)
     return Surface(
@@ -60,7 +59,7 @@ def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
         graph,
         _cotangents(V, F, e),
         steep,
-        component.astype(np.int64),
+        component,
         sums(component, area, k),
         closed,
     )
@@ -132,11 +131,11 @@ def _steep(V: Floats, F: Ints, e: Edges) -> Bools:
     ends = e.E[e.edge_of_halfedge[h[sharp]]]
     both = np.concatenate([ends, ends[:, ::-1]])
     both = both[np.argsort(both[:, 0], kind="stable")]
-    way = unit(V[both[:, 1]] - V[both[:, 0]])
+    direction = unit(V[both[:, 1]] - V[both[:, 0]])
     out = np.zeros(len(V), bool)
     for k in range(1, _SHARP_EDGES):  # edges k places apart in the list of those at a vertex
         at = both[k:, 0] == both[:-k, 0]
-        on = np.einsum("ij,ij->i", way[k:], way[:-k]) < _STRAIGHT
+        on = np.einsum("ij,ij->i", direction[k:], direction[:-k]) < _STRAIGHT
         out[both[k:, 0][at & on]] = True
     return out
 

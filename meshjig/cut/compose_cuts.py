@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import barycentric, interpolate
 from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Mesh, Outlines
@@ -109,11 +110,7 @@ def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, 
     towards_b = bary[at_edge, (opposite + 2) % 3]
     n = len(first.V)
     key, of_cut = edge_keys(np.stack([a, b], 1), n), edge_keys(first.cuts, n)
-    order = np.argsort(of_cut, kind="stable")
-    low, high = (np.searchsorted(of_cut[order], key, side=side) for side in ("left", "right"))
-    count = high - low  # a cut may be there twice, where two segments fell together
-    of = np.repeat(rows, count)
-    hit = order[np.repeat(low - (np.cumsum(count) - count), count) + np.arange(len(of))]
+    of, hit = equal_pairs(key, of_cut)  # a cut may be there twice, where two segments fell together
     along = np.where(first.cuts[hit, 0] == a[of], towards_b[of], 1 - towards_b[of])
 
     cut = np.concatenate([np.arange(len(of_cut)), np.arange(len(of_cut)), hit])

@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import Crossings
 from meshjig.cut.uv_mesh import UvMesh
+from meshjig.mesh.arrays import starts
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["APART_MM", "EdgeNodes", "edge_nodes"]
@@ -50,7 +51,7 @@ def edge_nodes(uv_mesh: UvMesh, graph: Graph, crossings: Crossings) -> EdgeNodes
     of_crossing[order] = node
     edge, along, length = E[~merged], T[~merged], length[~merged]
     count = np.bincount(edge, minlength=len(uv_mesh.E))
-    first = np.cumsum(count) - count
+    first = starts(count)
     along, n_respaced = _respaced(edge, along, length, np.arange(len(edge)) - first[edge], count[edge])
     return EdgeNodes(edge, along, of_crossing, first, count, int(tied.sum()), int(merged.sum()), n_respaced)
 

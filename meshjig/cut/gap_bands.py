@@ -6,6 +6,7 @@ import numpy as np
 
 from meshjig.cut.border_curves import PlaneCurves, SeamEdges, along_seams, cut_borders, seam_borders
 from meshjig.cut.metric import face_metric, half_width
+from meshjig.mesh.arrays import next_in_loop, ranks, row_of
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 
@@ -162,9 +163,8 @@ def _carried_over(
 def _samples(direction: Floats, step: float) -> tuple[Ints, Floats]:
     """Spread samples over segments: the segment of each, and its place from 0 to 1."""
     n = np.ceil(np.linalg.norm(direction, axis=1) / step).astype(np.int64) + 1
-    row = np.repeat(np.arange(len(n)), n)
-    rank = np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)
-    return row, rank / np.maximum(n[row] - 1, 1)
+    row = row_of(n)
+    return row, ranks(n) / np.maximum(n[row] - 1, 1)
 
 
 def _as_outlines(band: Any, clearance: float) -> Outlines:
@@ -176,9 +176,6 @@ def _as_outlines(band: Any, clearance: float) -> Outlines:
     points, ring = shapely.get_coordinates(rings, return_index=True)
     repeats_first = np.append(ring[1:] != ring[:-1], True)[: len(ring)]
     points, ring = points[~repeats_first], ring[~repeats_first]
-    size = np.bincount(ring, minlength=len(rings))
-    first = np.cumsum(size) - size
-    following = np.arange(1, len(points) + 1)
-    following[first + size - 1] = first
+    following = next_in_loop(np.bincount(ring, minlength=len(rings)))
     segments = np.stack([np.arange(len(points)), following], 1)
     return Outlines(points, segments, np.full(len(points), GAP), np.zeros(len(points), np.int64))

@@ -9,6 +9,7 @@ from meshjig.cut.predicates import angular_order
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import FaceSegments, corner_of_side
 from meshjig.cut.uv_mesh import UvMesh, forward
+from meshjig.mesh.arrays import next_in_loop, ranks, row_of, starts
 from meshjig.mesh.types import Ints
 
 __all__ = ["Ring", "Wiring", "make_ring", "wire"]
@@ -46,18 +47,14 @@ def make_ring(uv_mesh: UvMesh, nodes: EdgeNodes, linked: Ints) -> Ring:
 
     h = (3 * faces[:, None] + np.arange(3)).ravel()
     size = per_side[h] + 1
-    first = np.cumsum(size) - size
-    owner = np.repeat(np.arange(len(h)), size)
-    rank = np.arange(len(owner)) - first[owner]
+    owner, rank = row_of(size), ranks(size)
     edge, runs_up = uv_mesh.edge[h[owner]], forward(uv_mesh.F[faces])[owner]
     count = nodes.number[edge]
     node = np.where(rank == 0, -1, nodes.first[edge] + np.where(runs_up, rank - 1, count - rank))
     interval = nodes.first[edge] + edge + np.where(runs_up, rank, count - rank)
 
-    follows = np.arange(1, len(owner) + 1)
-    start = first.reshape(-1, 3)
-    follows[np.append(start[1:, 0], len(owner))[: len(faces)] - 1] = start[:, 0]
-    return Ring(faces, row, owner // 3, owner % 3, node, interval, start, follows)
+    follows = next_in_loop(size.reshape(-1, 3).sum(1))
+    return Ring(faces, row, owner // 3, owner % 3, node, interval, starts(size).reshape(-1, 3), follows)
 
 
 def wire(
@@ -117,13 +114,9 @@ def _turns(
     ends = graph.segments[face_segments.segment[which]]
     far = np.where(ends[:, 0] == point, ends[:, 1], ends[:, 0])
     order = angular_order(stop, graph.points[far] - graph.points[point])
-    group = stop[order]
-    first = np.flatnonzero(np.append(True, group[1:] != group[:-1]))
-    last = np.append(first[1:], len(group)) - 1
-    successor = np.arange(1, len(group) + 1)
-    successor[last] = first
+    successor = next_in_loop(np.bincount(stop))
     predecessor = np.empty_like(successor)
-    predecessor[successor] = np.arange(len(group))
+    predecessor[successor] = np.arange(len(successor))
     # half-edge i is followed, when one comes in along direction j, iff i is before j clockwise
     other = np.where(face_segments.mirrored[which[order]], predecessor, successor)
     incoming = np.empty(len(order), np.int64)

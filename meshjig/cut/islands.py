@@ -7,14 +7,13 @@ of the face, makes it cross an edge.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from meshjig.cut.places import kept_off_edges
 from meshjig.cut.predicates import orient
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import Trace, trace
 from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Origin", "in_mesh", "without_islands"]
@@ -105,8 +104,7 @@ def _island_segments(seen: Trace) -> Ints:
     if not len(inner):
         return inner
     n = len(seen.hits.point) + 1
-    graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(n, n))
-    _, label = connected_components(graph, directed=False)
+    _, label = connected(n, start, end)
     return inner[label[start[inner]] != label[0]]
 
 

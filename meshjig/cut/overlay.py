@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cut.cycles import Cycles, cycles
 from meshjig.cut.edge_nodes import edge_nodes
 from meshjig.cut.inner_halfedges import Ring, make_ring, wire
 from meshjig.cut.islands import Origin, in_mesh, without_islands
@@ -13,6 +12,7 @@ from meshjig.cut.region_labels import joined_over_seams, label_at, label_regions
 from meshjig.cut.snap import snap
 from meshjig.cut.triangulate import Filling, fill
 from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
+from meshjig.mesh.cycles import Cycles, cycles
 from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Outlines
 
 __all__ = ["Faces", "assemble_faces", "overlay", "place_vertices"]

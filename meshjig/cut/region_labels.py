@@ -1,15 +1,14 @@
 """Which label each part of the cut mesh has, and which parts are connected."""
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from meshjig.cut.cycles import Cycles
 from meshjig.cut.inner_halfedges import Ring
 from meshjig.cut.predicates import orient, vertex_left_of_segment
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import FaceSegments
 from meshjig.cut.uv_mesh import UvMesh
+from meshjig.mesh.arrays import connected
+from meshjig.mesh.cycles import Cycles
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Ints
 
@@ -35,7 +34,7 @@ def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints
     # ring half-edges on the same interval of the same side are neighbours
     half = 3 * ring.faces[ring.face] + ring.corner
     side = uv_mesh.side[half]
-    part = m + parts.of_half_edge[: len(half)]
+    part = m + parts.of_member[: len(half)]
     order = np.argsort(ring.interval, kind="stable")
     interval, its_side = ring.interval[order], side[order]
     twin = np.flatnonzero((interval[1:] == interval[:-1]) & (its_side[1:] == its_side[:-1]))
@@ -48,9 +47,7 @@ def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints
         rows.append(part[plain])
         cols.append(beyond[plain])
     r, c = np.concatenate(rows), np.concatenate(cols)
-    size = m + len(parts.size)
-    graph = coo_matrix((np.ones(len(r), np.int8), (r, c)), shape=(size, size))
-    _, label = connected_components(graph, directed=False)
+    _, label = connected(m + len(parts.size), r, c)
     used = np.append(untouched, np.ones(len(parts.size), bool))
     present = np.zeros(int(label.max(initial=-1)) + 1, bool)
     present[label[used]] = True
@@ -74,7 +71,7 @@ def label_regions(
     said = np.concatenate(
         [np.where(face_segments.mirrored, right, left), np.where(face_segments.mirrored, left, right)]
     )
-    where = of_part[parts.of_half_edge[n_ring:]]
+    where = of_part[parts.of_member[n_ring:]]
     values, said = np.unique(said, return_inverse=True)
     key, count = np.unique(where * np.int64(max(len(values), 1)) + said, return_counts=True)
     region, value = key // max(len(values), 1), key % max(len(values), 1)
@@ -104,10 +101,7 @@ def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
     h = np.flatnonzero(twin > np.arange(len(twin)))
     here, there = h // 3, twin[h] // 3
     alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)
-    pairs = region[here[alike]], region[there[alike]]
-    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(n, n))
-    _, joined = connected_components(graph, directed=False)
-    return joined.astype(np.int64)[region]
+    return connected(n, region[here[alike]], region[there[alike]])[1][region]
 
 
 def label_at(graph: Graph, q: Ints) -> int:

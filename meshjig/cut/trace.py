@@ -9,6 +9,7 @@ from meshjig.cut.predicates import orient, point_left_of_edge, vertex_left_of_se
 from meshjig.cut.snap import Graph
 from meshjig.cut.uv_mesh import UvMesh, forward
 from meshjig.errors import CutError
+from meshjig.mesh.arrays import ragged, row_of, starts
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = [
@@ -180,13 +181,10 @@ def _incidences(graph: Graph, hits: PointHits) -> tuple[Ints, Ints]:
     ends = graph.segments.ravel()
     order = np.argsort(ends, kind="stable")
     degree = np.bincount(ends, minlength=len(graph.points))
-    first = np.cumsum(degree) - degree
     count = degree[hits.point]
     if (count == 1).any():
         raise CutError("an outline ends inside the mesh", hint="close it, or let it end on another outline")
-    at = np.repeat(np.arange(len(count)), count)
-    k = np.arange(len(at)) - np.repeat(np.cumsum(count) - count, count)
-    return at, order[first[hits.point[at]] + k] // 2
+    return row_of(count), order[ragged(starts(degree)[hits.point], count)] // 2
 
 
 def _starts(

@@ -3,6 +3,7 @@
 import numpy as np
 
 from meshjig.errors import CutError
+from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import barycentric, face_areas
 from meshjig.mesh.types import GAP, CutMesh, Floats, Ints, Mesh
@@ -61,11 +62,7 @@ def transfer_pieces(
 
 def _piece_at(cut: CutMesh, piece_of_face: Ints, parent: Ints, points: Floats) -> Ints:
     """Find the pieces of points in given faces of the mesh, (k,) int64."""
-    order = np.argsort(cut.parent, kind="stable")
-    start = np.searchsorted(cut.parent[order], parent)
-    count = np.searchsorted(cut.parent[order], parent, side="right") - start
-    row = np.repeat(np.arange(len(parent)), count)
-    face = order[np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count) + np.repeat(start, count)]
+    row, face = equal_pairs(parent, cut.parent)
     inside = barycentric(cut.V, cut.F, face, points[row]).min(1)
     best = np.lexsort((inside, row))
     last = np.append(np.flatnonzero(np.diff(row[best])), len(best) - 1)

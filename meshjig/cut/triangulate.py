@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import coo_matrix, diags
 
-from meshjig.cut.cycles import Cycles
 from meshjig.cut.ears import clip_ears
 from meshjig.cut.places import Places
+from meshjig.mesh.arrays import next_in_loop, ragged, row_of
+from meshjig.mesh.cycles import Cycles
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Filling", "fill", "moved", "parts_beside", "spread"]
@@ -94,13 +95,11 @@ def _clipped(places: Places, parts: Cycles, frames: Floats, some: Ints) -> tuple
 def _fans(places: Places, parts: Cycles, some: Ints) -> tuple[Ints, Ints, Floats]:
     """Join the sides of parts to their centres; also give where those lie."""
     size = parts.size[some]
-    which = np.repeat(np.arange(len(some)), size)
-    k = np.arange(len(which)) - np.repeat(np.cumsum(size) - size, size)
-    first = parts.first[some][which]
-    here, after = parts.members[first + k], parts.members[first + (k + 1) % size[which]]
+    which = row_of(size)
+    here, after, part = _sides(parts, some)
     total = np.stack([np.bincount(which, places.bary[here, j], len(some)) for j in range(3)], 1)
     fan = np.stack([here, after, len(places.vertex) + which], 1)
-    return fan, some[which], total / np.maximum(size, 1)[:, None]
+    return fan, part, total / np.maximum(size, 1)[:, None]
 
 
 def parts_beside(places: Places, parts: Cycles, some: Ints) -> Ints:
@@ -165,10 +164,8 @@ def spread(places: Places, parts: Cycles, tangled: Ints, *, all_in_face: bool) -
 def _sides(parts: Cycles, some: Ints) -> tuple[Ints, Ints, Ints]:
     """List the half-edges of parts, those that follow them, and their part."""
     size = parts.size[some]
-    part = np.repeat(some, size)
-    k = np.arange(len(part)) - np.repeat(np.cumsum(size) - size, size)
-    first = parts.first[part]
-    return parts.members[first + k], parts.members[first + (k + 1) % parts.size[part]], part
+    here = parts.members[ragged(parts.first[some], size)]
+    return here, here[next_in_loop(size)], np.repeat(some, size)
 
 
 def _balanced(ends: Ints, at: Floats, free: Bools) -> Floats:

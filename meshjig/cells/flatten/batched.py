@@ -4,9 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.cells.flatten.planar import CellPatches, rims, scaled
+from meshjig.mesh.arrays import next_in_loop, starts
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import sums, unit
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.types import Floats
 
 __all__ = ["arap", "tutte"]
 
@@ -37,13 +38,13 @@ def tutte(p: CellPatches) -> Floats:
     W = coo_matrix((np.ones(len(E)), (E[:, 0], E[:, 1])), shape=(k, k)).tocsr()
     W = W + W.T
     uv, border = np.zeros((k, 2)), np.zeros(k, bool)
-    rim, _ = rims(p)
+    rim = rims(p)
     of_rim = p.of_vertex[rim]
     count = np.bincount(of_rim, minlength=p.n)
-    step = np.linalg.norm(p.V[rim] - p.V[_following(rim, count)], axis=1)
+    step = np.linalg.norm(p.V[rim] - p.V[rim[next_in_loop(count)]], axis=1)
     step = np.maximum(step, (0.05 * sums(of_rim, step, p.n) / count)[of_rim])  # no two fall together
     total = sums(of_rim, step, p.n)
-    along = np.cumsum(step) - step - (np.cumsum(total) - total)[of_rim]
+    along = starts(step) - starts(total)[of_rim]
     angle = 2 * np.pi * along / total[of_rim]
     uv[rim], border[rim] = np.stack([np.cos(angle), np.sin(angle)], 1), True
     free = np.flatnonzero(~border)
@@ -52,14 +53,6 @@ def tutte(p: CellPatches) -> Floats:
         solver = splu(L[:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
         uv[free] = solver.solve(-(L[:, border] @ uv[border]))
     return scaled(p, uv)
-
-
-def _following(rim: Ints, count: Ints) -> Ints:
-    """Give the vertex that comes after each one of its loop."""
-    last = np.cumsum(count) - 1
-    after = np.append(rim[1:], rim[:1])
-    after[last] = rim[last + 1 - count]
-    return after
 
 
 def arap(p: CellPatches, uv: Floats, iterations: int = 10) -> Floats:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.cycles import cycles
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
 from meshjig.mesh.types import Bools, Floats, Ints
@@ -68,32 +69,22 @@ def simple(p: CellPatches, uv: Floats) -> Bools:
     """Tell which cells have a border that does not meet itself in the plane, (n,)."""
     import shapely
 
-    rim, _ = rims(p)
+    rim = rims(p)
     lines = shapely.linearrings(uv[rim], indices=p.of_vertex[rim])
     out: Bools = shapely.is_simple(lines)
     return out
 
 
-def rims(p: CellPatches) -> tuple[Ints, Floats]:
-    """Order the border of every cell: its vertices, cell by cell, and how far along each is, mm.
+def rims(p: CellPatches) -> Ints:
+    """Order the border of every cell: its vertices, cell by cell, the lowest first, (b,).
 
     Cells are discs; borders run with the cell on their left.
     """
     h = border_halfedges(p.F)
     start, end = p.F.ravel()[h], p.F.ravel()[next_halfedge(h)]
-    first = np.full(p.n, len(p.V))
-    np.minimum.at(first, p.of_vertex[start], start)
-    after, left = np.arange(len(p.V)), np.zeros(len(p.V))
-    after[start] = end
-    left[start] = np.linalg.norm(p.V[start] - p.V[end], axis=1)
-    total = sums(p.of_vertex[start], left[start], p.n)
-    after[first], left[first] = first, 0.0
-    for _ in range(int(np.ceil(np.log2(len(start) + 2)))):  # twice as far each time
-        left, after = left + left[after], after[after]
-    done = total[p.of_vertex] - left
-    done[first] = 0.0
-    order = start[np.lexsort((done[start], p.of_vertex[start]))]
-    return order, done[order]
+    order = np.argsort(start)
+    rim = start[order]
+    return rim[cycles(np.searchsorted(rim, end[order])).members]
 
 
 def subset(p: CellPatches, chosen: Bools) -> tuple[CellPatches, Ints]:

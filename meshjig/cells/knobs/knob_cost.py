@@ -9,6 +9,7 @@ from meshjig.cells.knobs.knob_curves import KnobCurves
 from meshjig.cells.knobs.knob_places import LARGEST, Candidates, KnobSpec, Obstacles
 from meshjig.cells.knobs.knob_shapes import SLIM, STOUT, WAVE, KnobShapes
 from meshjig.cells.knobs.surface_grid import SurfaceGrid
+from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.measure import unit
 from meshjig.mesh.types import Bools, Floats, Ints
 
@@ -81,7 +82,7 @@ def conflicts(obstacles: Obstacles, c: KnobCurves) -> Ints:
     border = b.border[c.side]
     pairs = []
     for other in (knobs, roots):
-        i, j = _equal(knobs.cell, other.cell)
+        i, j = equal_pairs(knobs.cell, other.cell)
         apart = (border[i] < border[j]) if other is knobs else (border[i] != border[j])
         i, j = i[apart], j[apart]
         close = _near(knobs.bounds(), other.bounds(), i, j, obstacles.clear)
@@ -107,13 +108,3 @@ def _near(a: Floats, b: Floats, i: Ints, j: Ints, gap: float) -> Bools:
     """Tell which pairs of discs a[i] and b[j] are less than a gap apart."""
     d = a[i] - b[j]
     return d[:, 0] ** 2 + d[:, 1] ** 2 < (a[i, 2] + b[j, 2] + gap) ** 2
-
-
-def _equal(a: Ints, b: Ints) -> tuple[Ints, Ints]:
-    """List all pairs (i, j) with a[i] equal to b[j]."""
-    order = np.argsort(b, kind="stable")
-    first = np.searchsorted(b[order], a)
-    count = np.searchsorted(b[order], a, side="right") - first
-    i = np.repeat(np.arange(len(a)), count)
-    offset = np.arange(len(i)) - np.repeat(np.cumsum(count) - count, count)
-    return i, order[first[i] + offset]

@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.cells.knobs.knob_borders import Borders, places_along
 from meshjig.cells.knobs.knob_shapes import WAVE, KnobShapes
 from meshjig.cells.knobs.surface_grid import SurfaceGrid
+from meshjig.mesh.arrays import next_in_loop
 from meshjig.mesh.measure import unit
 from meshjig.mesh.types import Bools, Floats, Ints, Knobs, Outlines
 
@@ -88,10 +89,8 @@ def knob_loops(borders: Borders, shapes: KnobShapes, c: KnobCurves) -> tuple[Out
     outside = np.concatenate([cell, borders.rim_cell[framed]])
 
     points = np.concatenate(loops)
-    tail = np.arange(len(points))
-    head = tail + 1
-    head[np.cumsum(size) - 1] = np.cumsum(size) - size
-    outlines = Outlines(points, np.stack([tail, head], 1), np.repeat(inside, size), np.repeat(outside, size))
+    segments = np.stack([np.arange(len(points)), next_in_loop(size)], 1)
+    outlines = Outlines(points, segments, np.repeat(inside, size), np.repeat(outside, size))
     first = n * np.flatnonzero(shapes.kind[c.shape] != WAVE)[:, None]
     neck = first + np.array(shapes.neck)
     return outlines, Knobs(neck, first + np.array(shapes.head), neck.copy())
