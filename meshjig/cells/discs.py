@@ -3,29 +3,28 @@
 import numpy as np
 
 from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import Edges
-from meshjig.mesh.types import Ints
+from meshjig.mesh.types import Ints, Mesh
 
 __all__ = ["DISC", "RING", "shapes"]
 
 DISC, RING, OTHER = 1, 0, -99
 
 
-def shapes(F: Ints, cell: Ints, n: int, e: Edges) -> Ints:
+def shapes(mesh: Mesh, cell: Ints, n: int) -> Ints:
     """Tell what shape cells have.
 
     Parameters
     ----------
-    F : (m, 3) int64, manifold
+    mesh : Mesh
     cell : (m,) int64, 0 to n - 1
     n : int
-    e : Edges, of F
 
     Returns
     -------
     (n,) int64, the Euler number: 1 for a disc, 0 for a ring; -99 for a cell that is empty, in parts, or
     touches itself at a vertex
     """
+    F, e = mesh.F, mesh.edges
     twin = e.twin
     h = np.arange(len(twin))
     of, corner = np.repeat(cell, 3), F.ravel()

@@ -60,7 +60,7 @@ def extract(
         parted = cut_in_pairs(s, field, pairs, relative, spacing)
         owner = connect_labels(s.e.E, parted.owner, s.area)
         cut = march(s, owner, parted)
-        shape = shapes(cut.F, cut.cell, count, cut.e)
+        shape = shapes(cut.mesh, cut.cell, count)
         good = shape == DISC
         if good.all():
             break

@@ -7,11 +7,11 @@ import numpy as np
 from meshjig.cells.cell_mesh import CellMesh, Seeds
 from meshjig.cells.extract import Extracted
 from meshjig.cells.lloyd import Grown, evened, grown_again, grown_from, settled
-from meshjig.cells.refine import places, refine
 from meshjig.cells.sample_seeds import four_sided, sample_seeds
 from meshjig.cells.surface import Surface, surface
 from meshjig.errors import CutError, OptionError
-from meshjig.mesh.measure import face_areas
+from meshjig.mesh.refinement import places
+from meshjig.mesh.subdivide import refine
 from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["Style", "grow_cells"]
@@ -74,9 +74,9 @@ def grow_cells(
         raise OptionError(f"pieces: {n} is too few", hint="ask for at least 1")
     if targets is not None and (start is None or len(targets) != start.n_cells):
         raise OptionError("targets: there must be one for every cell of start", hint="give both")
-    spacing = float(np.sqrt(face_areas(mesh.V, mesh.F).sum() / n))
-    V, F, parent = refine(mesh.V, mesh.F, _EDGE * spacing)
-    s = surface(V, F, _BEND * spacing if crease_aware else 0.0)
+    spacing = float(np.sqrt(mesh.areas.sum() / n))
+    fine, parent = refine(mesh, _EDGE * spacing, shorter=False)
+    s = surface(fine, _BEND * spacing if crease_aware else 0.0)
     if start is not None:
         grown = grown_again(s, start, spacing, targets)
     elif style == "quad":
@@ -86,8 +86,9 @@ def grow_cells(
     _refuse_what_is_no_disc(grown.extracted)
     cut = grown.extracted.cut
     parent = parent[cut.parent]
-    face, bary = places(mesh.V, mesh.F, cut.V, cut.F, parent)
-    return CellMesh(Mesh(cut.V, cut.F), parent, face, bary, cut.cell, grown.seeds, grown.facts(s))
+    return CellMesh(
+        cut.mesh, mesh, parent, *places(mesh, cut.mesh, parent), cut.cell, grown.seeds, grown.facts(s)
+    )
 
 
 def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cells.cell_mesh import Seeds
+from meshjig.cells.cell_mesh import CellFacts, Seeds, ThinLimb
 from meshjig.cells.distances import smooth_distances, within
 from meshjig.cells.extract import Extracted, extract
 from meshjig.cells.power import balance
@@ -42,18 +42,15 @@ class Grown(NamedTuple):
         """Count the cells that are no discs."""
         return int((~self.extracted.good).sum())
 
-    def facts(self, s: Surface) -> dict[str, Any]:
+    def facts(self, s: Surface) -> CellFacts:
         """Say how many cells there are, and where limbs are thin, with the number that fits them."""
         around = np.pi * np.linalg.norm(self.seeds.poles[:, 0] - self.seeds.poles[:, 1], axis=1)
         cure = np.ceil(s.area.sum() / np.maximum(0.9 * around, 1e-9) ** 2)
-        return {
-            "cells": self.extracted.n,
-            "halved": self.extracted.n - len(self.seeds.points),
-            "thin_limbs": [
-                {"at": [round(float(x), 1) for x in at], "pieces": int(pieces)}
-                for at, pieces in zip(self.seeds.poles.mean(1), cure, strict=True)
-            ],
-        }
+        limbs = [
+            ThinLimb([round(float(x), 1) for x in at], int(pieces))
+            for at, pieces in zip(self.seeds.poles.mean(1), cure, strict=True)
+        ]
+        return CellFacts(self.extracted.n, self.extracted.n - len(self.seeds.points), limbs)
 
 
 def settled(s: Surface, seeds: Ints, spacing: float) -> Ints:

@@ -7,8 +7,8 @@ import numpy as np
 from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
 from meshjig.mesh.arrays import starts
-from meshjig.mesh.halfedges import Edges, edges
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges
+from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
 __all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched", "straighten"]
 
@@ -22,11 +22,24 @@ _SLIDES = 12
 class Marched(NamedTuple):
     """A mesh cut along the borders of cells; its first vertices are those of the mesh."""
 
-    V: Floats  # (n', 3)
-    F: Ints  # (m', 3)
+    mesh: Mesh
     parent: Ints  # (m',), the face that a face was cut from
     cell: Ints  # (m',)
-    e: Edges  # of F
+
+    @property
+    def V(self) -> Floats:
+        """The vertices, (n', 3), mm."""
+        return self.mesh.V
+
+    @property
+    def F(self) -> Ints:
+        """The faces, (m', 3)."""
+        return self.mesh.F
+
+    @property
+    def e(self) -> Edges:
+        """The edges of the cut mesh."""
+        return self.mesh.edges
 
 
 def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
@@ -45,11 +58,11 @@ def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
     -------
     Marched
     """
-    V, F, e = s.V, s.F, s.e
+    (V, F), e = s.mesh, s.e
     crossing, along = _crossings(e, owner, field)
     free = _snapped(F, e, np.where(s.steep, _STEEP, NEAR), crossing, along)
     for _ in range(_ROUNDS):
-        cut = cut_faces(V, F, e, owner, free, field, along)
+        cut = cut_faces(s.mesh, owner, free, field, along)
         bad = np.flatnonzero(pinched(cut)[: len(V)] & free)
         if not len(bad):
             break
@@ -57,7 +70,7 @@ def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
     a, b = e.E.T
     ends = e.E[~free[a] & ~free[b] & (owner[a] != owner[b])]
     point = len(V) + np.arange(len(ends))
-    return cut._replace(V=straighten(cut.V, cut.e, cut.cell, point, ends, NEAR))
+    return cut._replace(mesh=straighten(cut.mesh, cut.cell, point, ends, NEAR))
 
 
 def _crossings(e: Edges, owner: Ints, field: PowerField) -> tuple[Ints, Floats]:
@@ -89,10 +102,9 @@ def _snapped(F: Ints, e: Edges, near: Floats, crossing: Ints, along: Floats) -> 
     return free
 
 
-def cut_faces(
-    V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: PowerField, along: Floats
-) -> Marched:
+def cut_faces(mesh: Mesh, owner: Ints, free: Bools, field: PowerField, along: Floats) -> Marched:
     """Split every face by the labels of its corners; free corners have none."""
+    (V, F), e = mesh, mesh.edges
     a, b = e.E.T
     crossed = ~free[a] & ~free[b] & (owner[a] != owner[b])
     point = np.full(len(e.E), -1)
@@ -129,7 +141,7 @@ def cut_faces(
         add(three, owner[corner], corner, after, centre)
         add(three, owner[corner], corner, centre, before)
     G = np.concatenate(faces)
-    return Marched(V, G, np.concatenate(parents), np.concatenate(labels), edges(G))
+    return Marched(Mesh(V, G), np.concatenate(parents), np.concatenate(labels))
 
 
 def _label_of(owner: Ints, free: Bools) -> Ints:
@@ -169,13 +181,12 @@ def pinched(cut: Marched) -> Bools:
     return out
 
 
-def straighten(V: Floats, e: Edges, cell: Ints, point: Ints, ends: Ints, near: float) -> Floats:
+def straighten(mesh: Mesh, cell: Ints, point: Ints, ends: Ints, near: float) -> Mesh:
     """Slide points of borders along the edges that they lie on, each towards the line between its neighbours.
 
     Parameters
     ----------
-    V : (n, 3) float64, mm, vertices of a mesh whose edges follow borders
-    e : Edges
+    mesh : Mesh, whose edges follow borders
     cell : (m,) int64, of each face
     point : (k,) int64, vertices that lie on an edge
     ends : (k, 2) int64, vertices at the ends of that edge
@@ -183,8 +194,9 @@ def straighten(V: Floats, e: Edges, cell: Ints, point: Ints, ends: Ints, near: f
 
     Returns
     -------
-    (n, 3) float64, mm
+    Mesh
     """
+    V, e = mesh.V, mesh.edges
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     border = h[cell[h // 3] != cell[e.twin[h] // 3]]
     E = e.E[e.edge_of_halfedge[border]]
@@ -204,4 +216,4 @@ def straighten(V: Floats, e: Edges, cell: Ints, point: Ints, ends: Ints, near: f
         m = (W[p] * lq[:, None] + W[q] * lp[:, None]) / np.maximum(lp + lq, 1e-300)[:, None]
         t = np.clip(np.einsum("ij,ij->i", (m + x) / 2 - a, d) / squared, near, 1 - near)
         W[point] = a + t[:, None] * d
-    return W
+    return mesh.moved(W)

@@ -10,6 +10,8 @@ from meshjig.mesh.types import Floats, Ints
 __all__ = ["PowerField", "balance"]
 
 _STEP = 0.35  # of the squared spacing: the largest change of a weight at once
+_ROUNDS = 12
+_CLOSE = 0.004  # standard deviation of area over target at which it is well
 
 
 class PowerField(NamedTuple):
@@ -36,8 +38,6 @@ def balance(
     area: Floats,
     target: Floats,
     weights: Floats,
-    rounds: int = 12,
-    close: float = 0.004,
 ) -> tuple[Floats, PowerField]:
     """Find weights that give the power cells of seeds the areas asked for.
 
@@ -52,8 +52,6 @@ def balance(
     area : (n,) float64, mm2, of each vertex
     target : (N,) float64, mm2
     weights : (N,) float64, mm2, the start
-    rounds : int
-    close : float, standard deviation of area over target at which it is well
 
     Returns
     -------
@@ -68,7 +66,7 @@ def balance(
     squared = distance**2
     size = float(target.mean())
     best, best_spread, step, share = weights, np.inf, np.zeros(len(target)), 1.0
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         found, slope = _areas(seed, squared - np.append(weights, 0.0)[seed], points, area, size)
         spread = float((found / target - 1).std())
         if spread < best_spread:
@@ -76,7 +74,7 @@ def balance(
             step = _solve(slope, target - found)
         else:
             share /= 4
-        if best_spread < close:
+        if best_spread < _CLOSE:
             break
         weights = best + np.clip(share * step, -_STEP * size, _STEP * size)
         weights = weights - weights.mean()

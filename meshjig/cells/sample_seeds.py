@@ -10,7 +10,7 @@ from meshjig.cells.distances import nearest
 from meshjig.cells.surface import Surface
 from meshjig.errors import OptionError
 from meshjig.mesh.arrays import starts
-from meshjig.mesh.measure import sums, vertex_normals
+from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["centred", "four_sided", "sample_seeds"]
@@ -39,7 +39,7 @@ def sample_seeds(s: Surface, n: int, seed: int) -> Ints:
     Lloyd, "Least Squares Quantization in PCM", 1982.
     """
     count = _shares(s.component_area, s.closed, n)
-    seeds = _scattered(s.V, s.F, s.area, s.component, count, np.random.default_rng(seed))
+    seeds = _scattered(s, count, np.random.default_rng(seed))
     for _ in range(_ROUNDS):
         seeds = np.unique(centred(s.V, s.area, nearest(s.graph, seeds), len(seeds)))
     return seeds
@@ -88,32 +88,29 @@ def _shares(area: Floats, closed: Bools, n: int) -> Ints:
     return count
 
 
-def _scattered(V: Floats, F: Ints, area: Floats, groups: Ints, count: Ints, rng: np.random.Generator) -> Ints:
-    """Choose vertices so that every part of a surface has as many as its area deserves.
+def _scattered(s: Surface, count: Ints, rng: np.random.Generator) -> Ints:
+    """Choose vertices so that every component of a surface has as many as its area deserves.
 
-    The vertices of a group are halved by area again and again, across the direction in which they
+    The vertices of a component are halved by area again and again, across the direction in which they
     reach farthest; those that face opposite ways count as apart.
 
     Parameters
     ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
-    area : (n,) float64, mm2, of each vertex
-    groups : (n,) int64, 0 to c - 1
-    count : (c,) int64, vertices to choose from each group
+    s : Surface
+    count : (c,) int64, vertices to choose from each component
     rng : numpy.random.Generator
 
     Returns
     -------
     (count.sum(),) int64, all different
     """
-    spacing = np.sqrt(area.sum() / count.sum())
+    spacing = np.sqrt(s.area.sum() / count.sum())
     axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    X = np.concatenate([V @ axes, _TURN * spacing * vertex_normals(V, F) @ axes], 1)
-    part, left = groups.copy(), count.copy()
+    X = np.concatenate([s.V @ axes, _TURN * spacing * s.mesh.vertex_normals @ axes], 1)
+    part, left = s.component.copy(), count.copy()
     while left.max() > 1:
-        part, left = _halved(X, area, part, left)
-    return np.unique(centred(X, area, part, len(left)))
+        part, left = _halved(X, s.area, part, left)
+    return np.unique(centred(X, s.area, part, len(left)))
 
 
 def _halved(X: Floats, area: Floats, part: Ints, left: Ints) -> tuple[Ints, Ints]:

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from meshjig.mesh.arrays import connected
-from meshjig.mesh.halfedges import Edges, edges, next_halfedge
-from meshjig.mesh.measure import area_vectors, face_areas, sums, unit, vertex_normals
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges, next_halfedge
+from meshjig.mesh.measure import sums, unit
+from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
 __all__ = ["Surface", "surface", "surface_graph", "turns"]
 
@@ -24,9 +24,7 @@ _SHARP = np.cos(np.radians(40))  # between the normals of two faces: less is a c
 class Surface:
     """A mesh, its edges, areas, distances and components."""
 
-    V: Floats  # (n, 3), mm
-    F: Ints  # (m, 3)
-    e: Edges
+    mesh: Mesh
     area: Floats  # (n,), mm2, of each vertex
     graph: Any  # from surface_graph
     weight: Any  # (n, n) sparse, of each edge: the mean of its cotangents
@@ -34,6 +32,21 @@ class Surface:
     component: Ints  # (n,)
     component_area: Floats  # (c,), mm2
     closed: Bools  # (c,)
+
+    @property
+    def V(self) -> Floats:
+        """The vertices, (n, 3), mm."""
+        return self.mesh.V
+
+    @property
+    def F(self) -> Ints:
+        """The faces, (m, 3)."""
+        return self.mesh.F
+
+    @property
+    def e(self) -> Edges:
+        """The edges."""
+        return self.mesh.edges
 
     def targets(self, seeds: Ints, relative: Floats) -> Floats:
         """Share each component's area among its seeds, in proportion to relative areas; (N,), mm2."""
@@ -43,21 +56,18 @@ class Surface:
         return scaled
 
 
-def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
-    """Measure a mesh, V (n, 3) in mm and F (m, 3), without unused vertices; bend as in surface_graph."""
-    e = edges(F)
-    graph = surface_graph(V, F, e, bend)
-    area = sums(F.ravel(), np.repeat(face_areas(V, F) / 3, 3), len(V))
+def surface(mesh: Mesh, bend: float = 0.0) -> Surface:
+    """Measure a mesh without unused vertices; bend as in surface_graph."""
+    V, F, e = mesh.V, mesh.F, mesh.edges
+    area = sums(F.ravel(), np.repeat(mesh.areas / 3, 3), len(V))
     k, component = connected(len(V), *e.E.T)
     closed = ~np.isin(np.arange(k), component[e.E[e.n_faces == 1]])
-    steep = _steep(V, F, e) if bend else np.zeros(len(V), bool)
+    steep = _steep(mesh) if bend else np.zeros(len(V), bool)
     return Surface(
-        V,
-        F,
-        e,
+        mesh,
         area,
-        graph,
-        _cotangents(V, F, e),
+        surface_graph(mesh, bend),
+        _cotangents(mesh),
         steep,
         component,
         sums(component, area, k),
@@ -65,16 +75,14 @@ def surface(V: Floats, F: Ints, bend: float = 0.0) -> Surface:
     )
 
 
-def surface_graph(V: Floats, F: Ints, e: Edges, bend: float = 0.0) -> Any:
+def surface_graph(mesh: Mesh, bend: float = 0.0) -> Any:
     """Join vertices by the edges of a mesh and, straight across each edge, the two corners opposite it.
 
     Shortest paths over this graph are within a few per cent of the geodesic distance.
 
     Parameters
     ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
-    e : Edges, of F
+    mesh : Mesh
     bend : float, mm
         What a radian costs that the surface turns by on a path; gentle turns cost nothing.
 
@@ -84,6 +92,7 @@ def surface_graph(V: Floats, F: Ints, e: Edges, bend: float = 0.0) -> Any:
     """
     from scipy.sparse import csr_matrix
 
+    V, F, e = mesh.V, mesh.F, mesh.edges
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     ends = e.E[e.edge_of_halfedge[h]]
     opposite = np.stack([_opposite(F, h), _opposite(F, e.twin[h])], 1)
@@ -91,7 +100,7 @@ def surface_graph(V: Floats, F: Ints, e: Edges, bend: float = 0.0) -> Any:
     pairs = np.concatenate([e.E, opposite[straight]])
     far = np.concatenate([np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1), length[straight]])
     if bend:
-        far = far + bend * turns(V, F, pairs)
+        far = far + bend * turns(mesh, pairs)
     key = pairs.min(1) * len(V) + pairs.max(1)
     order = np.lexsort((far, key))
     first = np.ones(len(key), bool)  # of two paths between the same vertices, the shorter
@@ -101,17 +110,18 @@ def surface_graph(V: Floats, F: Ints, e: Edges, bend: float = 0.0) -> Any:
     return csr_matrix((np.tile(far, 2), (np.r_[a, b], np.r_[b, a])), shape=(len(V), len(V)))
 
 
-def turns(V: Floats, F: Ints, pairs: Ints) -> Floats:
+def turns(mesh: Mesh, pairs: Ints) -> Floats:
     """Give by how much the surface turns from one vertex to another, (k,), radians; gentle turns are 0."""
-    N = vertex_normals(V, F)
+    N = mesh.vertex_normals
     angle = np.arccos(np.clip(np.einsum("ij,ij->i", N[pairs[:, 0]], N[pairs[:, 1]]), -1, 1))
     return np.maximum(angle - _GENTLE, 0.0)
 
 
-def _cotangents(V: Floats, F: Ints, e: Edges) -> Any:
+def _cotangents(mesh: Mesh) -> Any:
     """Give the weights of edges that make averages over neighbours keep linear functions, (n, n)."""
     from scipy.sparse import csr_matrix
 
+    V, F, e = mesh.V, mesh.F, mesh.edges
     cotangent = np.empty(3 * len(F))
     for k in range(3):
         opposite = V[F[:, k - 1]]
@@ -123,9 +133,10 @@ def _cotangents(V: Floats, F: Ints, e: Edges) -> Any:
     return csr_matrix((np.r_[w, w], (np.r_[a, b], np.r_[b, a])), shape=(len(V), len(V)))
 
 
-def _steep(V: Floats, F: Ints, e: Edges) -> Bools:
+def _steep(mesh: Mesh) -> Bools:
     """Mark the vertices at which a crease goes straight on, (n,)."""
-    normal = unit(area_vectors(V, F))
+    V, e = mesh.V, mesh.edges
+    normal = unit(mesh.area_vectors)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     sharp = np.einsum("ij,ij->i", normal[h // 3], normal[e.twin[h] // 3]) < _SHARP
     ends = e.E[e.edge_of_halfedge[h[sharp]]]

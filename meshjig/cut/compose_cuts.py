@@ -54,7 +54,7 @@ def compose_cuts(
     V = np.concatenate([first.V, second.V[n_kept:]])
 
     on, bary = chosen[second.vertex_face[n_kept:]], second.vertex_bary[n_kept:]
-    parent, place = _in_mesh(atlas.mesh, first, on, bary)
+    parent, place = first.carry_back(on, bary)
     vertex_face = np.concatenate([first.vertex_face, parent])
     vertex_bary = np.concatenate([first.vertex_bary, place])
     cuts, source, param = _split(first, n + np.arange(len(on)), on, bary)
@@ -67,8 +67,8 @@ def compose_cuts(
     region = np.concatenate([first.region[rest_faces], int(first.region.max()) + 1 + second.region])
     n_segments = len(outlines.segments)
     cut = CutMesh(
-        V=V,
-        F=F,
+        mesh=Mesh(V, F),
+        of=atlas.mesh,
         parent=first.parent[face],
         label=label,
         region=region,
@@ -85,19 +85,6 @@ def compose_cuts(
     point[point_vertex] = len(outlines.points) + np.arange(len(points))
     landed = np.where(second.point_vertex >= 0, number[second.point_vertex], -1)
     return ComposedCut(cut, whole, point[landed], second.cut_segment[order])
-
-
-def _in_mesh(mesh: Mesh, first: CutMesh, on: Ints, bary: Floats) -> tuple[Ints, Floats]:
-    """Give the faces of the mesh that places in faces of a cut mesh lie in, and where in these."""
-    parent, corner = first.parent[on], first.F[on]
-    known = first.vertex_face[corner] == parent[:, None]
-    at = first.vertex_bary[corner]
-    row, k = np.nonzero(~known)
-    at[row, k] = barycentric(mesh.V, mesh.F, parent[row], first.V[corner[row, k]])
-    is_corner = corner[row, k][:, None] == mesh.F[parent[row]]
-    at[row, k] = np.where(is_corner.any(1)[:, None], is_corner, np.maximum(at[row, k], 0.0))
-    place = np.einsum("nk,nkd->nd", bary, at)
-    return parent, place / place.sum(1, keepdims=True)
 
 
 def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, Ints, Floats]:

@@ -7,8 +7,8 @@ import numpy as np
 from meshjig.cut.edge_nodes import EdgeNodes
 from meshjig.cut.predicates import angular_order
 from meshjig.cut.snap import Graph
-from meshjig.cut.trace import FaceSegments, corner_of_side
-from meshjig.cut.uv_mesh import UvMesh, forward
+from meshjig.cut.trace import FaceSegments, Trace
+from meshjig.cut.uv_mesh import UvMesh, corner_of_side, forward
 from meshjig.mesh.arrays import next_in_loop, ranks, row_of, starts
 from meshjig.mesh.types import Ints
 
@@ -57,16 +57,9 @@ def make_ring(uv_mesh: UvMesh, nodes: EdgeNodes, linked: Ints) -> Ring:
     return Ring(faces, row, owner // 3, owner % 3, node, interval, starts(size).reshape(-1, 3), follows)
 
 
-def wire(
-    uv_mesh: UvMesh, graph: Graph, nodes: EdgeNodes, ring: Ring, face_segments: FaceSegments, stops: tuple
-) -> Wiring:
-    """Say which half-edge follows which, so that every part of a face is one cycle.
-
-    Parameters
-    ----------
-    stops : (Crossings, PointHits)
-    """
-    crossings, hits = stops
+def wire(uv_mesh: UvMesh, graph: Graph, nodes: EdgeNodes, ring: Ring, seen: Trace) -> Wiring:
+    """Say which half-edge follows which, so that every part of a face is one cycle."""
+    crossings, hits, face_segments = seen
     nx, nr, nl = len(crossings.side), len(ring.next), len(face_segments.face)
     tail = np.concatenate([face_segments.start, face_segments.end])
     face = np.concatenate([face_segments.face, face_segments.face])

@@ -16,7 +16,7 @@ from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
 from meshjig.mesh.arrays import connected
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["Origin", "in_mesh", "without_islands"]
+__all__ = ["Joined", "Origin", "in_mesh", "without_islands"]
 
 ROUNDS = 60  # each round splits every face with islands once
 
@@ -29,6 +29,15 @@ class Origin(NamedTuple):
     bary: Floats  # (m - n_whole, 3, 3), where the corners of a part lie in its face of the mesh
 
 
+class Joined(NamedTuple):
+    """A UV mesh in which all outlines are joined to the borders of their faces."""
+
+    uv_mesh: UvMesh  # new vertices come after the old ones
+    origin: Origin
+    graph: Graph
+    seen: Trace  # of the graph on the UV mesh
+
+
 def in_mesh(origin: Origin, face: Ints, bary: Floats) -> tuple[Ints, Floats]:
     """Carry places (face, bary (n, 3)) from the UV mesh to the mesh."""
     part = np.flatnonzero(face >= origin.n_whole)
@@ -38,24 +47,20 @@ def in_mesh(origin: Origin, face: Ints, bary: Floats) -> tuple[Ints, Floats]:
     return origin.face[face], bary
 
 
-def without_islands(uv_mesh: UvMesh, graph: Graph) -> tuple[UvMesh, Origin, Graph, Trace]:
+def without_islands(uv_mesh: UvMesh, graph: Graph) -> Joined:
     """Split faces until every outline in them is joined to their border.
 
     An outline too small for that, a few grid steps across, is left out.
 
     Returns
     -------
-    uv_mesh : UvMesh
-        New vertices come after the old ones.
-    origin : Origin
-    graph : Graph
-    trace : Trace, of graph on uv_mesh
+    Joined
     """
     m = len(uv_mesh.F)
     first = trace(uv_mesh, graph)
     lonely = _island_segments(first)
     if not len(lonely):
-        return uv_mesh, Origin(np.arange(m), m, np.zeros((0, 3, 3))), graph, first
+        return Joined(uv_mesh, Origin(np.arange(m), m, np.zeros((0, 3, 3))), graph, first)
 
     faces = np.unique(first.face_segments.face[lonely])
     part = _Part(
@@ -86,7 +91,7 @@ def without_islands(uv_mesh: UvMesh, graph: Graph) -> tuple[UvMesh, Origin, Grap
         np.concatenate([uv_mesh.chart[whole], part.uv_mesh.chart]),
     )
     origin = Origin(np.concatenate([whole, part.face]), len(whole), part.bary)
-    return merged, origin, graph, trace(merged, graph)
+    return Joined(merged, origin, graph, trace(merged, graph))
 
 
 class _Part(NamedTuple):

@@ -8,14 +8,15 @@ from meshjig.cut.edge_nodes import edge_nodes
 from meshjig.cut.inner_halfedges import Ring, make_ring, wire
 from meshjig.cut.islands import Origin, in_mesh, without_islands
 from meshjig.cut.places import Places, corner_frames, half_edge_places, hit_weights
-from meshjig.cut.region_labels import joined_over_seams, label_at, label_regions, regions
+from meshjig.cut.region_labels import Regions, joined_over_seams, label_at, label_regions, regions
 from meshjig.cut.snap import snap
 from meshjig.cut.triangulate import Filling, fill
 from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
 from meshjig.mesh.cycles import Cycles, cycles
-from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Outlines
+from meshjig.mesh.refinement import at_corners
+from meshjig.mesh.types import Atlas, CutFacts, CutMesh, Floats, Ints, Mesh, Outlines
 
-__all__ = ["Faces", "assemble_faces", "overlay", "place_vertices"]
+__all__ = ["overlay"]
 
 
 def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
@@ -54,22 +55,22 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     mesh = atlas.mesh
     U, graph = snap(atlas.uv, outlines)
     uv_mesh = make_uv_mesh(mesh.V, mesh.F, U, atlas.F_uv, atlas.chart_of_face)
-    uv_mesh, origin, graph, (crossings, hits, face_segments) = without_islands(uv_mesh, graph)
+    uv_mesh, origin, graph, seen = without_islands(uv_mesh, graph)
+    crossings, hits, inside = seen
 
     nodes = edge_nodes(uv_mesh, graph, crossings)
-    ring = make_ring(uv_mesh, nodes, face_segments.face)
-    wiring = wire(uv_mesh, graph, nodes, ring, face_segments, (crossings, hits))
+    ring = make_ring(uv_mesh, nodes, inside.face)
+    wiring = wire(uv_mesh, graph, nodes, ring, seen)
     parts = cycles(wiring.next)
-    places = half_edge_places(
-        uv_mesh, ring, nodes, face_segments, hit_weights(uv_mesh, graph, hits), wiring.slot, wiring.leaving
-    )
+    places = half_edge_places(uv_mesh, ring, nodes, inside, hit_weights(uv_mesh, graph, hits), wiring)
     places, filling = fill(places, parts, corner_frames(uv_mesh, ring.faces))
-    n_regions, *of = regions(uv_mesh, ring, parts)
-    faces = assemble_faces(uv_mesh, ring, places, parts, filling, (of[0], of[1]))
-    V, vertex_face, vertex_bary = place_vertices(uv_mesh, origin, ring, places, parts, filling)
+    of = regions(uv_mesh, ring, parts)
+    faces = _faces(uv_mesh, ring, places, parts, filling, of)
+    V, vertex_face, vertex_bary = _vertices(uv_mesh, origin, ring, places, parts, filling)
+    made = Mesh(V, faces.F)
 
-    label, known, n_conflicts = label_regions(graph, face_segments, len(ring.next), parts, n_regions, of[1])
-    sample = np.zeros(n_regions, np.int64)
+    label, known, n_conflicts = label_regions(graph, inside, len(ring.next), parts, of)
+    sample = np.zeros(of.n, np.int64)
     sample[faces.region[::-1]] = faces.face[::-1]
     for r in np.flatnonzero(~known).tolist():
         label[r] = label_at(graph, uv_mesh.U[uv_mesh.F_uv[sample[r], 0]])
@@ -77,35 +78,35 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
 
     vertex_of_place = np.full(len(graph.points), -1)
     vertex_of_place[hits.point[::-1]] = places.first_hit + np.arange(len(hits.point))[::-1]
-    forth = len(ring.next) + np.arange(len(face_segments.face))
+    forth = len(ring.next) + np.arange(len(inside.face))
     return CutMesh(
-        V=V,
-        F=faces.F,
+        mesh=made,
+        of=mesh,
         parent=origin.face[faces.face],
         label=label_of_face,
-        region=joined_over_seams(faces.F, label_of_face, faces.region),
+        region=joined_over_seams(made, label_of_face, faces.region),
         vertex_face=vertex_face,
         vertex_bary=vertex_bary,
         point_vertex=vertex_of_place[graph.point],
-        cuts=np.stack([places.vertex[forth], places.vertex[forth + len(face_segments.face)]], 1),
-        cut_segment=graph.source[face_segments.segment],
-        cut_param=face_segments.param,
-        facts={
-            "crossings": len(crossings.side),
-            "zero_predicates": crossings.n_zero,
-            "ties": nodes.n_ties,
-            "seam_merged": nodes.n_merged,
-            "respaced": nodes.n_respaced,
-            "split_faces": len(uv_mesh.F) - len(mesh.F),
-            "untangled": filling.n_untangled,
-            "steiner": len(filling.centre_part),
-            "label_conflicts": n_conflicts,
-            "largest_part": int(parts.size.max(initial=0)),
-        },
+        cuts=np.stack([places.vertex[forth], places.vertex[forth + len(inside.face)]], 1),
+        cut_segment=graph.source[inside.segment],
+        cut_param=inside.param,
+        facts=CutFacts(
+            crossings=len(crossings.side),
+            zero_predicates=crossings.n_zero,
+            ties=nodes.n_ties,
+            seam_merged=nodes.n_merged,
+            respaced=nodes.n_respaced,
+            split_faces=len(uv_mesh.F) - len(mesh.F),
+            untangled=filling.n_untangled,
+            steiner=len(filling.centre_part),
+            label_conflicts=n_conflicts,
+            largest_part=int(parts.size.max(initial=0)),
+        ),
     )
 
 
-class Faces(NamedTuple):
+class _Faces(NamedTuple):
     """The faces of the cut mesh: untouched ones first."""
 
     F: Ints  # (f, 3)
@@ -113,28 +114,22 @@ class Faces(NamedTuple):
     region: Ints  # (f,)
 
 
-def assemble_faces(
-    uv_mesh: UvMesh, ring: Ring, places: Places, parts: Cycles, filling: Filling, regions: tuple[Ints, Ints]
-) -> Faces:
-    """Put untouched faces and the triangles in cut ones together.
-
-    Parameters
-    ----------
-    regions : (of_face, of_part)
-    """
-    of_face, of_part = regions
+def _faces(
+    uv_mesh: UvMesh, ring: Ring, places: Places, parts: Cycles, filling: Filling, of: Regions
+) -> _Faces:
+    """Put untouched faces and the triangles in cut ones together."""
     untouched = np.flatnonzero(ring.row < 0)
     n_placed = places.n_vertices
     vertex = np.append(places.vertex, n_placed + np.arange(len(filling.centre_part)))
     face_of_part = ring.faces[places.row[parts.members[parts.first]]]
-    return Faces(
+    return _Faces(
         np.concatenate([uv_mesh.F[untouched], vertex[filling.T]]),
         np.concatenate([untouched, face_of_part[filling.part]]),
-        np.concatenate([of_face[untouched], of_part[filling.part]]),
+        np.concatenate([of.face[untouched], of.part[filling.part]]),
     )
 
 
-def place_vertices(
+def _vertices(
     uv_mesh: UvMesh, origin: Origin, ring: Ring, places: Places, parts: Cycles, filling: Filling
 ) -> tuple[Floats, Ints, Floats]:
     """Place all vertices of the cut mesh.
@@ -148,9 +143,7 @@ def place_vertices(
     n_old, n_placed = len(uv_mesh.V), places.n_vertices
     face = np.zeros(n_placed + len(filling.centre_part), np.int64)
     bary = np.zeros((len(face), 3))
-    for k in range(3):
-        face[uv_mesh.F[:, k]] = np.arange(len(uv_mesh.F))
-    bary[:n_old] = uv_mesh.F[face[:n_old]] == np.arange(n_old)[:, None]
+    face[:n_old], bary[:n_old] = at_corners(Mesh(uv_mesh.V, uv_mesh.F))
     new = np.flatnonzero(places.vertex >= n_old)
     face[places.vertex[new]] = ring.faces[places.row[new]]
     bary[places.vertex[new]] = places.bary[new]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cut.edge_nodes import APART_MM, EdgeNodes
-from meshjig.cut.inner_halfedges import Ring
+from meshjig.cut.inner_halfedges import Ring, Wiring
 from meshjig.cut.predicates import orient
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import FaceSegments, PointHits
@@ -55,15 +55,13 @@ def half_edge_places(
     nodes: EdgeNodes,
     face_segments: FaceSegments,
     weights: Floats,
-    slots: Ints,
-    leaving: Ints,
+    wiring: Wiring,
 ) -> Places:
     """Place the starts of all half-edges: of the ring, of segments forth, of segments back.
 
     Parameters
     ----------
     weights : (l, 3) float64, from hit_weights
-    slots, leaving : the ring half-edges and the segment half-edges that start at the same node
     """
     nr, nl, nx = len(ring.next), len(face_segments.face), len(nodes.of_crossing)
     tail = np.concatenate([face_segments.start, face_segments.end])
@@ -84,7 +82,7 @@ def half_edge_places(
     at_hit = np.flatnonzero(tail >= nx)
     vertex[nr + at_hit] = len(uv_mesh.V) + len(nodes.edge) + tail[at_hit] - nx
     bary[nr + at_hit] = weights[tail[at_hit] - nx]
-    vertex[leaving], bary[leaving] = vertex[slots], bary[slots]
+    vertex[wiring.leaving], bary[wiring.leaving] = vertex[wiring.slot], bary[wiring.slot]
     first_hit = len(uv_mesh.V) + len(nodes.edge)
     return Places(vertex, row, bary, first_hit, first_hit + len(weights))
 

@@ -1,5 +1,7 @@
 """Which label each part of the cut mesh has, and which parts are connected."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from meshjig.cut.inner_halfedges import Ring
@@ -9,21 +11,21 @@ from meshjig.cut.trace import FaceSegments
 from meshjig.cut.uv_mesh import UvMesh
 from meshjig.mesh.arrays import connected
 from meshjig.mesh.cycles import Cycles
-from meshjig.mesh.halfedges import edges
-from meshjig.mesh.types import Bools, Ints
+from meshjig.mesh.types import Bools, Ints, Mesh
 
-__all__ = ["joined_over_seams", "label_at", "label_regions", "regions"]
+__all__ = ["Regions", "joined_over_seams", "label_at", "label_regions", "regions"]
 
 
-def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
-    """Join parts of faces over sides of the mesh; outlines and seams are walls.
+class Regions(NamedTuple):
+    """Faces, and parts of faces, that are connected."""
 
-    Returns
-    -------
-    n : int
-    of_face : (m,) int64, the region of untouched faces, -1 for cut ones
-    of_part : (c,) int64, the region of each part of the cut faces
-    """
+    n: int
+    face: Ints  # (m,), the region of untouched faces, -1 for cut ones
+    part: Ints  # (c,), the region of each part of the cut faces
+
+
+def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> Regions:
+    """Join parts of faces over sides of the mesh; outlines and seams are walls."""
     m = len(uv_mesh.F)
     untouched = ring.row < 0
     one, other = uv_mesh.faces[:, 0], uv_mesh.faces[:, 1]
@@ -53,11 +55,11 @@ def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints
     present[label[used]] = True
     number = np.cumsum(present) - 1
     label = np.where(used, number[label], -1)
-    return int(present.sum()), label[:m], label[m:]
+    return Regions(int(present.sum()), label[:m], label[m:])
 
 
 def label_regions(
-    graph: Graph, face_segments: FaceSegments, n_ring: int, parts: Cycles, n: int, of_part: Ints
+    graph: Graph, face_segments: FaceSegments, n_ring: int, parts: Cycles, of: Regions
 ) -> tuple[Ints, Bools, int]:
     """Label regions by the outlines that bound them.
 
@@ -71,24 +73,24 @@ def label_regions(
     said = np.concatenate(
         [np.where(face_segments.mirrored, right, left), np.where(face_segments.mirrored, left, right)]
     )
-    where = of_part[parts.of_member[n_ring:]]
+    where = of.part[parts.of_member[n_ring:]]
     values, said = np.unique(said, return_inverse=True)
     key, count = np.unique(where * np.int64(max(len(values), 1)) + said, return_counts=True)
     region, value = key // max(len(values), 1), key % max(len(values), 1)
     order = np.lexsort((-value, count, region))
-    label = np.zeros(n, np.int64)
-    known = np.zeros(n, bool)
+    label = np.zeros(of.n, np.int64)
+    known = np.zeros(of.n, bool)
     label[region[order]] = values[value[order]]  # the last word, said most often, stays
     known[region] = True
     return label, known, int((values[said] != label[where]).sum()) if len(said) else 0
 
 
-def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
+def joined_over_seams(mesh: Mesh, label: Ints, region: Ints) -> Ints:
     """Join regions of one label that meet over a seam; faces without a label stay apart.
 
     Parameters
     ----------
-    F : (m, 3) int64, the cut mesh
+    mesh : Mesh, the cut one
     label : (m,) int64
     region : (m,) int64, all of one label each
 
@@ -97,7 +99,7 @@ def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
     region : (m,) int64, 0 to r - 1
     """
     n = int(region.max(initial=-1)) + 1
-    twin = edges(F).twin
+    twin = mesh.edges.twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
     here, there = h // 3, twin[h] // 3
     alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)

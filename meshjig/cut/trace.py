@@ -7,22 +7,12 @@ import numpy as np
 from meshjig.cut.broad_phase import Boxes, Cells, box_pairs, boxes, make_cells, near
 from meshjig.cut.predicates import orient, point_left_of_edge, vertex_left_of_segment
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import UvMesh, forward
+from meshjig.cut.uv_mesh import UvMesh, corner_of_side, forward
 from meshjig.errors import CutError
 from meshjig.mesh.arrays import ragged, row_of, starts
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = [
-    "Crossings",
-    "FaceSegments",
-    "PointHits",
-    "Trace",
-    "corner_of_side",
-    "cross",
-    "follow",
-    "locate",
-    "trace",
-]
+__all__ = ["Crossings", "FaceSegments", "PointHits", "Trace", "trace"]
 
 
 class Crossings(NamedTuple):
@@ -37,7 +27,51 @@ class Crossings(NamedTuple):
     n_zero: int  # answers that the symbolic shift gave
 
 
-def cross(uv_mesh: UvMesh, graph: Graph, cells: Cells, around: Boxes) -> Crossings:
+class PointHits(NamedTuple):
+    """Outline points inside faces. Where the plane image overlaps itself, a point lands repeatedly."""
+
+    point: Ints  # (l,)
+    face: Ints  # (l,)
+
+
+class FaceSegments(NamedTuple):
+    """Pieces of segments inside faces, in the direction of their segment.
+
+    Stops are numbered crossings first, then hits.
+    """
+
+    start: Ints  # (l,), the stop that a piece starts from
+    end: Ints  # (l,), the stop it ends at
+    face: Ints  # (l,)
+    segment: Ints  # (l,)
+    param: Floats  # (l, 2), start and end on the segment of the outlines, 0 to 1
+    mirrored: Bools  # (l,), whether the face lies face down in the plane
+
+
+class Trace(NamedTuple):
+    """The stops of outlines on a UV mesh, and the segments between them."""
+
+    crossings: Crossings
+    hits: PointHits
+    face_segments: FaceSegments
+
+
+def trace(uv_mesh: UvMesh, graph: Graph) -> Trace:
+    """Follow outlines over a UV mesh.
+
+    Raises
+    ------
+    CutError
+        An outline ends inside the mesh.
+    """
+    a, b = graph.points[graph.segments[:, 0]], graph.points[graph.segments[:, 1]]
+    cells, around = make_cells(uv_mesh.U, uv_mesh.S, a, b)
+    crossings = _cross(uv_mesh, graph, cells, around)
+    hits = _locate(uv_mesh, graph, cells)
+    return Trace(crossings, hits, _follow(uv_mesh, graph, crossings, hits))
+
+
+def _cross(uv_mesh: UvMesh, graph: Graph, cells: Cells, around: Boxes) -> Crossings:
     """Find all crossings of segments with sides of the mesh.
 
     Parameters
@@ -81,14 +115,7 @@ def _share(first: Ints, second: Ints) -> Floats:
     return np.where(total > 0, np.abs(first) / np.maximum(total, 1), 0.5)
 
 
-class PointHits(NamedTuple):
-    """Outline points inside faces. Where the plane image overlaps itself, a point lands repeatedly."""
-
-    point: Ints  # (l,)
-    face: Ints  # (l,)
-
-
-def locate(uv_mesh: UvMesh, graph: Graph, cells: Cells) -> PointHits:
+def _locate(uv_mesh: UvMesh, graph: Graph, cells: Cells) -> PointHits:
     """Find the faces that contain the shifted outline points which have segments."""
     used = np.zeros(len(graph.points), bool)
     used[graph.segments.ravel()] = True
@@ -115,21 +142,7 @@ def locate(uv_mesh: UvMesh, graph: Graph, cells: Cells) -> PointHits:
     return PointHits(point[order], face[order])
 
 
-class FaceSegments(NamedTuple):
-    """Pieces of segments inside faces, in the direction of their segment.
-
-    Stops are numbered crossings first, then hits.
-    """
-
-    start: Ints  # (l,), the stop that a piece starts from
-    end: Ints  # (l,), the stop it ends at
-    face: Ints  # (l,)
-    segment: Ints  # (l,)
-    param: Floats  # (l, 2), start and end on the segment of the outlines, 0 to 1
-    mirrored: Bools  # (l,), whether the face lies face down in the plane
-
-
-def follow(uv_mesh: UvMesh, graph: Graph, crossings: Crossings, hits: PointHits) -> FaceSegments:
+def _follow(uv_mesh: UvMesh, graph: Graph, crossings: Crossings, hits: PointHits) -> FaceSegments:
     """Pair what happens to a segment in a face: it comes in or starts there, leaves or ends there.
 
     A face is convex, so that each segment does two of these things in it, or nothing.
@@ -155,7 +168,8 @@ def follow(uv_mesh: UvMesh, graph: Graph, crossings: Crossings, hits: PointHits)
 
     u, v, w = (uv_mesh.U[uv_mesh.F_uv[face, k]] for k in range(3))
     mirrored = orient(u, v, w) < 0
-    swap = _starts(uv_mesh, graph, crossings, hits, second, face, segment, mirrored)
+    either_way = FaceSegments(first, second, face, segment, np.zeros((0, 2)), mirrored)
+    swap = _starts(uv_mesh, graph, Trace(crossings, hits, either_way))
     start, end = np.where(swap, second, first), np.where(swap, first, second)
     at_hit = np.zeros(len(hits.point))
     param = np.stack(
@@ -170,12 +184,6 @@ def follow(uv_mesh: UvMesh, graph: Graph, crossings: Crossings, hits: PointHits)
     return FaceSegments(start, end, face, segment, param, mirrored)
 
 
-def corner_of_side(uv_mesh: UvMesh, face: Ints, side: Ints) -> Ints:
-    """Give the corner of each face at which its half-edge along a side starts."""
-    sides = uv_mesh.side.reshape(-1, 3)
-    return np.where(sides[face, 0] == side, 0, np.where(sides[face, 1] == side, 1, 2))
-
-
 def _incidences(graph: Graph, hits: PointHits) -> tuple[Ints, Ints]:
     """List (hit, segment) for all segments at all points that hit a face."""
     ends = graph.segments.ravel()
@@ -187,52 +195,21 @@ def _incidences(graph: Graph, hits: PointHits) -> tuple[Ints, Ints]:
     return row_of(count), order[ragged(starts(degree)[hits.point], count)] // 2
 
 
-def _starts(
-    uv_mesh: UvMesh,
-    graph: Graph,
-    crossings: Crossings,
-    hits: PointHits,
-    stop: Ints,
-    face: Ints,
-    segment: Ints,
-    mirrored: Bools,
-) -> Bools:
-    """Tell whether segments enter their face at a stop, or start there.
+def _starts(uv_mesh: UvMesh, graph: Graph, seen: Trace) -> Bools:
+    """Tell whether segments enter their face at the second of their stops, or start there.
 
     A segment comes in over a half-edge whose tail it has on the left, or on the right where the
     face is mirrored. A face without area in the plane is read as if it were not mirrored: of its
     two crossed half-edges, one answers yes.
     """
+    crossings, hits, inside = seen
     nx = len(crossings.side)
-    enters = np.empty(len(stop), bool)
-    at_hit = stop >= nx
-    point = hits.point[stop[at_hit] - nx]
-    enters[at_hit] = graph.segments[segment[at_hit], 0] == point
-    x, f = stop[~at_hit], face[~at_hit]
+    enters = np.empty(len(inside.end), bool)
+    at_hit = inside.end >= nx
+    point = hits.point[inside.end[at_hit] - nx]
+    enters[at_hit] = graph.segments[inside.segment[at_hit], 0] == point
+    x, f = inside.end[~at_hit], inside.face[~at_hit]
     h = 3 * f + corner_of_side(uv_mesh, f, crossings.side[x])
     tail_left = crossings.first_left[x] == forward(uv_mesh.F_uv)[h]
-    enters[~at_hit] = tail_left != mirrored[~at_hit]
+    enters[~at_hit] = tail_left != inside.mirrored[~at_hit]
     return enters
-
-
-class Trace(NamedTuple):
-    """The stops of outlines on a UV mesh, and the segments between them."""
-
-    crossings: Crossings
-    hits: PointHits
-    face_segments: FaceSegments
-
-
-def trace(uv_mesh: UvMesh, graph: Graph) -> Trace:
-    """Follow outlines over a UV mesh.
-
-    Raises
-    ------
-    CutError
-        An outline ends inside the mesh.
-    """
-    a, b = graph.points[graph.segments[:, 0]], graph.points[graph.segments[:, 1]]
-    cells, around = make_cells(uv_mesh.U, uv_mesh.S, a, b)
-    crossings = cross(uv_mesh, graph, cells, around)
-    hits = locate(uv_mesh, graph, cells)
-    return Trace(crossings, hits, follow(uv_mesh, graph, crossings, hits))

@@ -10,7 +10,7 @@ import numpy as np
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["UvMesh", "following", "forward", "make_uv_mesh"]
+__all__ = ["UvMesh", "corner_of_side", "following", "forward", "make_uv_mesh"]
 
 
 class UvMesh(NamedTuple):
@@ -44,6 +44,12 @@ def following(F: Ints) -> Ints:
 def forward(F: Ints) -> Bools:
     """Tell which half-edges run from the lower to the higher number, (3 m,) bool."""
     return F.ravel() < following(F)
+
+
+def corner_of_side(uv_mesh: UvMesh, face: Ints, side: Ints) -> Ints:
+    """Give the corner of each face at which its half-edge along a side starts."""
+    sides = uv_mesh.side.reshape(-1, 3)
+    return np.where(sides[face, 0] == side, 0, np.where(sides[face, 1] == side, 1, 2))
 
 
 def make_uv_mesh(V: Floats, F: Ints, U: Ints, F_uv: Ints, chart: Ints) -> UvMesh:

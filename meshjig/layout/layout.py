@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from meshjig.cells import CellMesh
-from meshjig.mesh.measure import interpolate
-from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Knobs, Mesh, Outlines, Stitching
+from meshjig.mesh.refinement import Refinement, unrefined
+from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Knobs, Outlines, Stitching
 
 __all__ = ["Layout", "Parts"]
 
@@ -28,13 +28,16 @@ class Layout:
     @property
     def face_of_surface(self) -> Ints:
         """The face of the surface that every face of the cut mesh lies in, (m,) int64."""
-        return self.cut.parent if self.cells is None else self.cells.parent[self.cut.parent]
+        return self.refinement.parent[self.cut.parent]
 
-    def carried(self, X: Floats, surface: Mesh, cut: CutMesh) -> Floats:
+    @property
+    def refinement(self) -> Refinement:
+        """How the mesh of the atlas lies on the surface."""
+        return unrefined(self.atlas.mesh) if self.cells is None else self.cells
+
+    def carried(self, X: Floats, cut: CutMesh) -> Floats:
         """Carry what belongs to vertices of the surface, (n, d), to those of a cut mesh of this atlas."""
-        if self.cells is not None:
-            X = interpolate(X, surface.F, self.cells.vertex_face, self.cells.vertex_bary)
-        return interpolate(X, self.atlas.mesh.F, cut.vertex_face, cut.vertex_bary)
+        return cut.carry(self.refinement.carry(X))
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ def knobs_over_seams(layout: Layout, options: Options, random: float, seed: int)
             between=between,
         )
         log.info("seams: %s, flattened %s", knobs.facts, atlas.facts)
-        n_knobs = knobs.facts["knobs"]
+        n_knobs = knobs.facts.knobs
         n_segments = len(layout.outlines.segments)
         second = overlay(atlas, knobs.outlines)
         layout, further = recut(layout, chosen, kept, second, piece_of_cell)
@@ -113,7 +113,8 @@ def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> tuple[Ints, CellMesh
     F, kept = compact(cut.F[chosen])
     cell = (np.cumsum(wanted) - 1)[piece[chosen]]
     mesh = Mesh(cut.V[kept], F)
-    cells = CellMesh(mesh, cut.parent[chosen], cut.vertex_face[kept], cut.vertex_bary[kept], cell)
+    places = cut.vertex_face[kept], cut.vertex_bary[kept]
+    cells = CellMesh(mesh, cut.of, cut.parent[chosen], *places, cell)
     return np.flatnonzero(wanted), cells, chosen, kept
 
 

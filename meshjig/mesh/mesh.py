@@ -79,7 +79,8 @@ class Mesh:
         if V is self.V:
             return self
         other = Mesh(V, self.F)
-        other.__dict__.update({k: v for k, v in self.__dict__.items() if k == "edges"})
+        if "edges" in self.__dict__:
+            other.__dict__["edges"] = self.edges
         return other
 
     def __getstate__(self) -> dict[str, Any]:

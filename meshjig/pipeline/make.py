@@ -86,7 +86,7 @@ def make_puzzle(
             parts = _leave_gaps(layout, options)
         with stages("solid"):
             sheets, scan.facts["self_crossings"], crossing = beside.result()
-            solids, solid_facts = _solids(surface, layout, parts, sheets, options)
+            solids, solid_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
             solids, label_facts = finished(solids, surface, sheets, options)
             core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
@@ -197,11 +197,11 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
 
 
 def _solids(
-    surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
+    layout: Layout, parts: Parts, sheets: Shell, options: Options
 ) -> tuple[list[tuple[Floats, Ints]], dict[str, Any]]:
     """Give the pieces their thickness."""
     cut = parts.cut
-    outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
+    outer, D = (layout.carried(X, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
     facts["discarded_volume_share"] += parts.discarded

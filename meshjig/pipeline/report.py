@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -74,8 +75,8 @@ def assemble_report(
         "input": scan.facts,
         "options": options.model_dump(),
         "charts" if layout.cells is None else "cells": layout.atlas.facts
-        | ({} if layout.cells is None else layout.cells.facts),
-        "cut": cut.facts,
+        | (asdict(layout.cells.facts) if layout.cells and layout.cells.facts else {}),
+        "cut": asdict(cut.facts) if cut.facts else {},
         "stitching": layout.stitching.facts,
         "solid": solid_facts,
         "pieces": _pieces(n, area, solids, locks, options),

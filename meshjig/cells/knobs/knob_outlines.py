@@ -1,7 +1,6 @@
 """Knobs on the borders of cells: where they are, how large, and into which cell."""
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from meshjig.cells.knobs.surface_grid import Lift, surface_grid
 from meshjig.mesh.measure import face_areas, sums
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
-__all__ = ["KnobLayout", "knob_outlines"]
+__all__ = ["KnobFacts", "KnobLayout", "knob_outlines"]
 
 _CLEAR = 0.07  # distance from borders and between knobs, in units of size
 _GROUND = 0.05  # step of the grid of normals, in units of size
@@ -30,6 +29,19 @@ _SHORT = 0.3  # in units of size, a border that need not have a knob
 
 
 @dataclass(frozen=True)
+class KnobFacts:
+    """How many borders got what, for the report."""
+
+    borders: int
+    knobs: int
+    stout_knobs: int  # with thick necks, for the sake of min_neck
+    waves: int
+    plain: int
+    long_without_knob: int  # borders longer than 0.3 of size
+    too_thin: int  # borders without a knob for which one with a thinner neck would fit
+
+
+@dataclass(frozen=True)
 class KnobLayout:
     """Knobs and waves as cuts through the planes of cells; labels are cells."""
 
@@ -40,7 +52,7 @@ class KnobLayout:
     knob_of_border: Ints  # (b,), -1 where there is none
     moved: Ints  # (k, 2), the cell that gives up area to a knob or wave, and the one that gets it
     moved_mm2: Floats  # (k,)
-    facts: dict[str, Any] = field(default_factory=dict)
+    facts: KnobFacts
 
 
 def knob_outlines(
@@ -80,9 +92,6 @@ def knob_outlines(
     Returns
     -------
     KnobLayout
-        facts: borders, knobs, stout_knobs (with thick necks, for the sake of min_neck), waves,
-        plain, long_without_knob (borders longer than 0.3 of size), too_thin (borders without a knob
-        for which one with a thinner neck would fit).
 
     Notes
     -----
@@ -108,15 +117,15 @@ def knob_outlines(
     knob_of_border = np.full(len(borders.sides), -1)
     knob_of_border[borders.border[made.side[kind != WAVE]]] = np.arange(len(knobs.neck))
     without = knob_of_border < 0
-    facts = {
-        "borders": len(borders.sides),
-        "knobs": len(knobs.neck),
-        "stout_knobs": int((kind == STOUT).sum()),
-        "waves": int((kind == WAVE).sum()),
-        "plain": len(borders.sides) - len(kind),
-        "long_without_knob": int((without & (borders.length > _SHORT * size)).sum()),
-        "too_thin": _too_thin(obstacles, spec, without, rng) if min_neck > 0 else 0,
-    }
+    facts = KnobFacts(
+        borders=len(borders.sides),
+        knobs=len(knobs.neck),
+        stout_knobs=int((kind == STOUT).sum()),
+        waves=int((kind == WAVE).sum()),
+        plain=len(borders.sides) - len(kind),
+        long_without_knob=int((without & (borders.length > _SHORT * size)).sum()),
+        too_thin=_too_thin(obstacles, spec, without, rng) if min_neck > 0 else 0,
+    )
     moved = np.stack([borders.cell[made.side], borders.cell[borders.opposite(made.side)]], 1)
     return KnobLayout(
         outlines, knobs, borders.cell[borders.sides], borders.length, knob_of_border, moved, area, facts

@@ -17,7 +17,9 @@ def one_cell(shape):
     """Take a whole disc for a cell."""
     V, F = shape
     none = np.zeros(len(V), np.int64)
-    return CellMesh(Mesh(V, F), np.arange(len(F)), none, np.ones((len(V), 3)), np.zeros(len(F), np.int64))
+    return CellMesh(
+        Mesh(V, F), Mesh(V, F), np.arange(len(F)), none, np.ones((len(V), 3)), np.zeros(len(F), np.int64)
+    )
 
 
 SHAPES = {

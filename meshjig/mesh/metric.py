@@ -4,7 +4,7 @@ import numpy as np
 
 from meshjig.mesh.types import Atlas, Floats, Ints
 
-__all__ = ["face_metric", "half_width"]
+__all__ = ["face_metric"]
 
 
 def face_metric(atlas: Atlas, faces: Ints) -> Floats:
@@ -30,22 +30,3 @@ def face_metric(atlas: Atlas, faces: Ints) -> Floats:
     metric = np.stack([(du * du).sum(1), (du * dv).sum(1), (dv * dv).sum(1)], 1)
     metric[flat] = [1.0, 0.0, 1.0]
     return metric
-
-
-def half_width(metric: Floats, tangent: Floats, clearance: float) -> Floats:
-    """Give the distance in the plane that is half a clearance on the surface, across a curve.
-
-    Parameters
-    ----------
-    metric : (k, 3) float64, see `face_metric`
-    tangent : (k, 2) float64, the curve's direction in the plane
-    clearance : float, mm
-
-    Returns
-    -------
-    (k,) float64, mm in the plane: (c / 2) |J t| / det J for a unit tangent t
-    """
-    t = tangent / np.maximum(np.linalg.norm(tangent, axis=1), 1e-300)[:, None]
-    along = metric[:, 0] * t[:, 0] ** 2 + 2 * metric[:, 1] * t[:, 0] * t[:, 1] + metric[:, 2] * t[:, 1] ** 2
-    det = np.sqrt(np.maximum(metric[:, 0] * metric[:, 2] - metric[:, 1] ** 2, 1e-12))
-    return clearance / 2 * np.sqrt(np.maximum(along, 1e-12)) / det
