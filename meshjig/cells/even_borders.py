@@ -9,7 +9,7 @@ from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
 from meshjig.cells.power import PowerField
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges
-from meshjig.mesh.measure import face_areas, sums, unit
+from meshjig.mesh.measure import sums, unit
 from meshjig.mesh.refinement import Refinement, at_corners
 from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
@@ -59,7 +59,7 @@ def even_borders(mesh: Mesh, cell: Ints, lines: list[Line]) -> Evened:
         cut = cut_faces(mesh, owner, free, _NOTHING, along)
         whole = free[F[cut.parent]].all(1)
         cut = cut._replace(cell=np.where(whole, cell[cut.parent], cut.cell))
-        bad = np.flatnonzero(_strays(cut) | np.any(pinched(cut)[cut.F], axis=1))
+        bad = np.flatnonzero(_strays(cut) | np.any(pinched(cut)[cut.mesh.F], axis=1))
         if not len(bad):
             break
         held[F[cut.parent[bad]].ravel()] = True
@@ -87,8 +87,10 @@ def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints,
 
 def _strays(cut: Marched) -> Bools:
     """Mark faces that are cut off from the rest of their cell, (m,)."""
-    n, part = components(cut.F, np.repeat(cut.cell, 3) != cut.cell[cut.e.twin // 3], cut.e.twin)
-    size = sums(part, face_areas(cut.V, cut.F), n)
+    n, part = components(
+        cut.mesh.F, np.repeat(cut.cell, 3) != cut.cell[cut.mesh.edges.twin // 3], cut.mesh.edges.twin
+    )
+    size = sums(part, cut.mesh.areas, n)
     cell = np.empty(n, np.int64)
     cell[part] = cut.cell
     order = np.argsort(size, kind="stable")

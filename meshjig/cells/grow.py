@@ -119,8 +119,8 @@ def _refuse_what_is_no_disc(extracted: Extracted) -> None:
     bad = np.flatnonzero(~extracted.good)
     if not len(bad):
         return
-    used = np.unique(extracted.cut.F[extracted.cut.cell == bad[0]])
-    where = ", ".join(f"{x:.0f}" for x in extracted.cut.V[used].mean(0)) if len(used) else "nowhere"
+    used = np.unique(extracted.cut.mesh.F[extracted.cut.cell == bad[0]])
+    where = ", ".join(f"{x:.0f}" for x in extracted.cut.mesh.V[used].mean(0)) if len(used) else "nowhere"
     raise CutError(
         f"{len(bad)} of {extracted.n} pieces would be rings or worse, the first around ({where})",
         hint="ask for more pieces",

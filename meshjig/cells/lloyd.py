@@ -13,7 +13,7 @@ from meshjig.cells.power import balance
 from meshjig.cells.repair_topology import Pair
 from meshjig.cells.sample_seeds import centred
 from meshjig.cells.surface import Surface
-from meshjig.mesh.measure import face_areas, sums
+from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Grown", "evened", "grown_again", "grown_from", "settled"]
@@ -34,7 +34,7 @@ class Grown(NamedTuple):
     def areas(self) -> Floats:
         """Give the areas of cells over their mean, (N,)."""
         cut = self.extracted.cut
-        area = sums(cut.cell, face_areas(cut.V, cut.F), self.extracted.n)
+        area = sums(cut.cell, cut.mesh.areas, self.extracted.n)
         return area / area.mean()
 
     @property

@@ -26,21 +26,6 @@ class Marched(NamedTuple):
     parent: Ints  # (m',), the face that a face was cut from
     cell: Ints  # (m',)
 
-    @property
-    def V(self) -> Floats:
-        """The vertices, (n', 3), mm."""
-        return self.mesh.V
-
-    @property
-    def F(self) -> Ints:
-        """The faces, (m', 3)."""
-        return self.mesh.F
-
-    @property
-    def e(self) -> Edges:
-        """The edges of the cut mesh."""
-        return self.mesh.edges
-
 
 def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
     """Cut faces where the values of two cells are equal, between vertices that the cells own.
@@ -172,11 +157,13 @@ def _meeting(field: PowerField, F: Ints, owner: Ints) -> Floats:
 
 def pinched(cut: Marched) -> Bools:
     """Mark vertices at which the faces of one cell meet in more than one fan, (n,)."""
-    twin, n = cut.e.twin, int(cut.cell.max(initial=0)) + 1
+    twin, n = cut.mesh.edges.twin, int(cut.cell.max(initial=0)) + 1
     h = np.arange(len(twin))
     border = np.flatnonzero((twin == h) | (cut.cell[h // 3] != cut.cell[twin // 3]))
-    found, count = np.unique(cut.F.ravel()[border] * np.int64(n) + cut.cell[border // 3], return_counts=True)
-    out = np.zeros(len(cut.V), bool)
+    found, count = np.unique(
+        cut.mesh.F.ravel()[border] * np.int64(n) + cut.cell[border // 3], return_counts=True
+    )
+    out = np.zeros(len(cut.mesh.V), bool)
     out[found[count > 1] // n] = True
     return out
 
@@ -197,7 +184,7 @@ def straighten(mesh: Mesh, cell: Ints, point: Ints, ends: Ints, near: float) -> 
     Mesh
     """
     V, e = mesh.V, mesh.edges
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = mesh.inner_halfedges
     border = h[cell[h // 3] != cell[e.twin[h] // 3]]
     E = e.E[e.edge_of_halfedge[border]]
     both = np.concatenate([E, E[:, ::-1]])

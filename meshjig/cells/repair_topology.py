@@ -128,7 +128,7 @@ def _even_poles(
     s: Surface, cut: Marched, owner: Ints, cell: int, region: Ints, rank: int
 ) -> tuple[int, int] | None:
     """Choose poles on a cell so that a region is halved; of rank 1 another way than of rank 0."""
-    poles = poles_of(s.V, np.flatnonzero(owner == cell), cut.F[cut.cell == cell], cut.V)
+    poles = poles_of(s.V, np.flatnonzero(owner == cell), cut.mesh.F[cut.cell == cell], cut.mesh.V)
     if not len(poles):
         return None
     sides = [side_of(s, region, (p, q)) for p, q in poles.tolist()]
@@ -159,13 +159,13 @@ def _parted(s: Surface, region: Ints, poles: tuple[int, int], share: float) -> F
 
 def _contacts(cut: Marched, cell: int) -> list[_Contact]:
     """List the neighbours of a cell along each of its rims."""
-    twin = cut.e.twin
+    twin = cut.mesh.edges.twin
     mine = np.flatnonzero(cut.cell == cell)[:, None] * 3 + np.arange(3)
     mine = mine.ravel()
     h = mine[(twin[mine] == mine) | (cut.cell[twin[mine] // 3] != cell)]
     other = np.where(twin[h] == h, -1, cut.cell[twin[h] // 3])
-    start, end = cut.F.ravel()[h], cut.F.ravel()[next_halfedge(h)]
-    length = np.linalg.norm(cut.V[start] - cut.V[end], axis=1)
+    start, end = cut.mesh.F.ravel()[h], cut.mesh.F.ravel()[next_halfedge(h)]
+    length = np.linalg.norm(cut.mesh.V[start] - cut.mesh.V[end], axis=1)
     rim = loops(start, end)
     around = sums(rim, length, int(rim.max(initial=-1)) + 1)
     found, stretch = np.unique(np.stack([rim, other], 1), axis=0, return_inverse=True)

@@ -93,7 +93,7 @@ def surface_graph(mesh: Mesh, bend: float = 0.0) -> Any:
     from scipy.sparse import csr_matrix
 
     V, F, e = mesh.V, mesh.F, mesh.edges
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = mesh.inner_halfedges
     ends = e.E[e.edge_of_halfedge[h]]
     opposite = np.stack([_opposite(F, h), _opposite(F, e.twin[h])], 1)
     length, straight = _unfolded(V, ends, opposite)
@@ -137,7 +137,7 @@ def _steep(mesh: Mesh) -> Bools:
     """Mark the vertices at which a crease goes straight on, (n,)."""
     V, e = mesh.V, mesh.edges
     normal = unit(mesh.area_vectors)
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = mesh.inner_halfedges
     sharp = np.einsum("ij,ij->i", normal[h // 3], normal[e.twin[h] // 3]) < _SHARP
     ends = e.E[e.edge_of_halfedge[h[sharp]]]
     both = np.concatenate([ends, ends[:, ::-1]])

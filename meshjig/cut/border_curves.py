@@ -48,7 +48,7 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
     """
     n = len(cut.V)
     e = cut.mesh.edges
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = cut.mesh.inner_halfedges
     h = h[piece_of_face[h // 3] != piece_of_face[e.twin[h] // 3]]
     ends = e.E[e.edge_of_halfedge[h]]
     key, of_cut = edge_keys(ends, n), edge_keys(cut.cuts, n)
@@ -72,7 +72,7 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
 def seam_borders(atlas: Atlas, cut: CutMesh, piece_of_face: Ints) -> SeamEdges:
     """Give the cut mesh's edges along the seams between charts, from both sides."""
     e = cut.mesh.edges
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
+    h = cut.mesh.inner_halfedges
     parent = np.stack([cut.parent[h // 3], cut.parent[e.twin[h] // 3]], 1)
     different = parent[:, 0] != parent[:, 1]
     h, parent = h[different], parent[different]

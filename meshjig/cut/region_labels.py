@@ -100,7 +100,7 @@ def joined_over_seams(mesh: Mesh, label: Ints, region: Ints) -> Ints:
     """
     n = int(region.max(initial=-1)) + 1
     twin = mesh.edges.twin
-    h = np.flatnonzero(twin > np.arange(len(twin)))
+    h = mesh.inner_halfedges
     here, there = h // 3, twin[h] // 3
     alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)
     return connected(n, region[here[alike]], region[there[alike]])[1][region]

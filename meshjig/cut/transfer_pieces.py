@@ -6,22 +6,19 @@ from meshjig.errors import CutError
 from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import barycentric, face_areas
-from meshjig.mesh.types import GAP, CutMesh, Floats, Ints, Mesh
+from meshjig.mesh.types import GAP, CutMesh, Floats, Ints
 
 __all__ = ["transfer_pieces"]
 
 
-def transfer_pieces(
-    mesh: Mesh, without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh
-) -> tuple[Ints, Ints]:
+def transfer_pieces(without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh) -> tuple[Ints, Ints]:
     """Name the parts that are left between gaps after the pieces of the same surface without gaps.
 
     Parameters
     ----------
-    mesh : Mesh, which both were cut from
     without_gap : CutMesh
     piece_of_face : (m,) int64, for the faces of without_gap
-    with_gap : CutMesh, whose gap faces have the label GAP
+    with_gap : CutMesh, of the same mesh; its gap faces have the label GAP
 
     Returns
     -------

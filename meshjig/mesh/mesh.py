@@ -42,6 +42,12 @@ class Mesh:
         twin = self.edges.twin
         return np.flatnonzero(twin == np.arange(len(twin)))
 
+    @property
+    def inner_halfedges(self) -> Ints:
+        """One half-edge of every edge between two faces, that with the lower number, (i,)."""
+        twin = self.edges.twin
+        return np.flatnonzero(twin > np.arange(len(twin)))
+
     @cached_property
     def areas(self) -> Floats:
         """The area of each face, (m,), mm2."""

@@ -191,7 +191,7 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
         atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
     )
     cut = overlay(atlas, band)
-    piece, specks = transfer_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
+    piece, specks = transfer_pieces(layout.cut, layout.piece_of_face, cut)
     area = face_areas(cut.V, cut.F)
     return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 

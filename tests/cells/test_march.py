@@ -25,10 +25,10 @@ def test_borders_lie_exactly_between_two_seeds_in_the_plane():
     points = np.array([[-20.0, 3, 0], [22, -7, 0]])
     field = in_plane(s.V, points)
     cut = march(s, field.owner, field)
-    e = cut.e
+    e = cut.mesh.edges
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     on = np.unique(e.E[e.edge_of_halfedge[h[cut.cell[h // 3] != cut.cell[e.twin[h] // 3]]]])
-    off = np.abs(np.diff(np.linalg.norm(cut.V[on][:, None] - points, axis=2), axis=1))
+    off = np.abs(np.diff(np.linalg.norm(cut.mesh.V[on][:, None] - points, axis=2), axis=1))
     assert (
         off.max() / 2 < 0.08 * 2.2
     )  # edges are 2.2 mm: a border goes through a vertex that it passes close by
@@ -42,13 +42,13 @@ def test_cutting_keeps_the_surface_and_makes_no_sliver(seed, n):
     points = np.random.default_rng(seed).uniform(-50, 50, (n, 3)) * [1, 1, 0]
     field = in_plane(V, points)
     cut = march(s, field.owner, field)
-    assert (cut.V[: len(V)] == V).all()
-    area = face_areas(cut.V[:, :2], cut.F)
+    assert (cut.mesh.V[: len(V)] == V).all()
+    area = face_areas(cut.mesh.V[:, :2], cut.mesh.F)
     assert area.min() > 1e-3 * face_areas(V, F).min()
     assert np.bincount(cut.parent, area, len(F)) == pytest.approx(face_areas(V, F))
-    assert edges(cut.F).n_faces.max() == 2
-    assert (edges(cut.F).n_faces == 1).sum() >= (edges(F).n_faces == 1).sum()
-    assert len(cut.V) - len(edges(cut.F).E) + len(cut.F) == 1
+    assert edges(cut.mesh.F).n_faces.max() == 2
+    assert (edges(cut.mesh.F).n_faces == 1).sum() >= (edges(F).n_faces == 1).sum()
+    assert len(cut.mesh.V) - len(edges(cut.mesh.F).E) + len(cut.mesh.F) == 1
 
 
 def test_shapes_agree_with_one_at_a_time():

@@ -69,7 +69,7 @@ def test_the_gap_is_complete_over_the_closing_line(tiled, method):
     atlas, outlines, _, cut = tiled
     clearance = 0.4
     parts = overlay(atlas, gap_outlines(atlas, cut, outlines, cut.label, clearance, method))
-    piece, specks = transfer_pieces(atlas.mesh, cut, cut.label, parts)
+    piece, specks = transfer_pieces(cut, cut.label, parts)
     assert len(specks) == 0
     gap = outer_gap(parts.V, parts.F, piece, clearance)
     assert gap["within_10pct"] > 0.97

@@ -48,7 +48,7 @@ def cell_atlas(cells: CellMesh, known: Floats | None = None) -> Atlas:
         others as 0.6 of the largest chart's extent. facts: rescued (cells that folded at first), flips
         (faces mirrored or flat in the end).
     """
-    p = patches(cells.mesh.V, cells.mesh.F, cells.cell)
+    p = patches(cells.mesh, cells.cell)
     uv, todo = np.zeros((len(p.V), 2)), np.ones(p.n, bool)
     if known is not None:
         uv, torn = _placed(p, known)

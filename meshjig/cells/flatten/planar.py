@@ -7,7 +7,7 @@ import numpy as np
 from meshjig.mesh.cycles import cycles
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
 __all__ = ["CellPatches", "folded", "mirrored", "patches", "projected", "rims", "scaled", "simple", "subset"]
 
@@ -25,12 +25,13 @@ class CellPatches(NamedTuple):
     area: Floats  # (m,), of a face in space, mm2
 
 
-def patches(V: Floats, F: Ints, cell: Ints) -> CellPatches:
+def patches(mesh: Mesh, cell: Ints) -> CellPatches:
     """Take cells apart: a vertex on a border has a copy for each cell."""
+    V, F = mesh
     n = int(cell.max(initial=-1)) + 1
     key = np.repeat(cell, 3) * np.int64(len(V)) + F.ravel()
     found, corner = np.unique(key, return_inverse=True)
-    return CellPatches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n, face_areas(V, F))
+    return CellPatches(V[found % len(V)], corner.reshape(-1, 3), cell, found // len(V), n, mesh.areas)
 
 
 def projected(p: CellPatches) -> Floats:

@@ -11,7 +11,7 @@ from meshjig.cells.knobs.knob_curves import KnobCurves, knob_loops
 from meshjig.cells.knobs.knob_places import LARGEST, Candidates, KnobSpec, Obstacles, candidates, cut_clean
 from meshjig.cells.knobs.knob_shapes import SLIM, STOUT, WAVE, KnobShapes, knob_shapes
 from meshjig.cells.knobs.surface_grid import Lift, surface_grid
-from meshjig.mesh.measure import face_areas, sums
+from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
 __all__ = ["KnobFacts", "KnobLayout", "knob_outlines"]
@@ -109,7 +109,7 @@ def knob_outlines(
         cost += _CHANGED * ~_as_before(borders, found.curves, like)
     best = _best_of_each_side(found, cost, obstacles.shapes)
     found, cost = found.take(best), cost[best]
-    cell_area = sums(atlas.chart_of_face, face_areas(atlas.mesh.V, atlas.mesh.F), atlas.n_charts)
+    cell_area = sums(atlas.chart_of_face, atlas.mesh.areas, atlas.n_charts)
     made, area = _chosen(obstacles, Lift(atlas), found.curves, cost, cell_area, rng)
 
     outlines, knobs = knob_loops(borders, obstacles.shapes, made)

@@ -96,7 +96,7 @@ def test_cells_that_lie_whole_in_a_plane_stay_as_they_are_there():
 @pytest.mark.parametrize("seed", range(5))
 def test_vertices_that_were_pushed_over_their_neighbours_come_back(seed):
     V, F = disc(1500)
-    p = patches(V, F, np.zeros(len(F), np.int64))
+    p = patches(Mesh(V, F), np.zeros(len(F), np.int64))
     uv = p.V[:, :2].copy()
     rng = np.random.default_rng(seed)
     inner = np.setdiff1d(np.arange(len(p.V)), p.F.ravel()[border_halfedges(p.F)])
@@ -113,7 +113,7 @@ def test_vertices_that_were_pushed_over_their_neighbours_come_back(seed):
 
 def test_a_fold_at_the_rim_is_left_rather_than_made_worse():
     V, F = disc(400)
-    p = patches(V, F, np.zeros(len(F), np.int64))
+    p = patches(Mesh(V, F), np.zeros(len(F), np.int64))
     uv = p.V[:, :2].copy()
     rim = p.F.ravel()[border_halfedges(p.F)[0]]
     uv[rim] *= 0.2
