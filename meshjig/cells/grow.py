@@ -86,9 +86,8 @@ def grow_cells(
     _refuse_what_is_no_disc(grown.extracted)
     cut = grown.extracted.cut
     parent = parent[cut.parent]
-    return CellMesh(
-        cut.mesh, mesh, parent, *places(mesh, cut.mesh, parent), cut.cell, grown.seeds, grown.facts(s)
-    )
+    made = Mesh(*cut.mesh)  # without what was kept of it
+    return CellMesh(made, mesh, parent, *places(mesh, made, parent), cut.cell, grown.seeds, grown.facts(s))
 
 
 def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:

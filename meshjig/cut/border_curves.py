@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.mesh.cycles import chains
-from meshjig.mesh.halfedges import edge_keys, next_halfedge
+from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
 from meshjig.mesh.measure import barycentric
 from meshjig.mesh.types import Atlas, Bools, CutMesh, Floats, Ints, Outlines
 
@@ -47,8 +47,8 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
     piece_of_face : (m,) int64, for the cut mesh's faces
     """
     n = len(cut.V)
-    e = cut.mesh.edges
-    h = cut.mesh.inner_halfedges
+    e = edges(cut.F)
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     h = h[piece_of_face[h // 3] != piece_of_face[e.twin[h] // 3]]
     ends = e.E[e.edge_of_halfedge[h]]
     key, of_cut = edge_keys(ends, n), edge_keys(cut.cuts, n)
@@ -71,8 +71,8 @@ def cut_borders(cut: CutMesh, outlines: Outlines, piece_of_face: Ints) -> PlaneC
 
 def seam_borders(atlas: Atlas, cut: CutMesh, piece_of_face: Ints) -> SeamEdges:
     """Give the cut mesh's edges along the seams between charts, from both sides."""
-    e = cut.mesh.edges
-    h = cut.mesh.inner_halfedges
+    e = edges(cut.F)
+    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     parent = np.stack([cut.parent[h // 3], cut.parent[e.twin[h] // 3]], 1)
     different = parent[:, 0] != parent[:, 1]
     h, parent = h[different], parent[different]

@@ -67,7 +67,6 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     of = regions(uv_mesh, ring, parts)
     faces = _faces(uv_mesh, ring, places, parts, filling, of)
     V, vertex_face, vertex_bary = _vertices(uv_mesh, origin, ring, places, parts, filling)
-    made = Mesh(V, faces.F)
 
     label, known, n_conflicts = label_regions(graph, inside, len(ring.next), parts, of)
     sample = np.zeros(of.n, np.int64)
@@ -80,11 +79,11 @@ def overlay(atlas: Atlas, outlines: Outlines) -> CutMesh:
     vertex_of_place[hits.point[::-1]] = places.first_hit + np.arange(len(hits.point))[::-1]
     forth = len(ring.next) + np.arange(len(inside.face))
     return CutMesh(
-        mesh=made,
+        mesh=Mesh(V, faces.F),
         of=mesh,
         parent=origin.face[faces.face],
         label=label_of_face,
-        region=joined_over_seams(made, label_of_face, faces.region),
+        region=joined_over_seams(faces.F, label_of_face, faces.region),
         vertex_face=vertex_face,
         vertex_bary=vertex_bary,
         point_vertex=vertex_of_place[graph.point],

@@ -11,7 +11,8 @@ from meshjig.cut.trace import FaceSegments
 from meshjig.cut.uv_mesh import UvMesh
 from meshjig.mesh.arrays import connected
 from meshjig.mesh.cycles import Cycles
-from meshjig.mesh.types import Bools, Ints, Mesh
+from meshjig.mesh.halfedges import edges
+from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["Regions", "joined_over_seams", "label_at", "label_regions", "regions"]
 
@@ -85,12 +86,12 @@ def label_regions(
     return label, known, int((values[said] != label[where]).sum()) if len(said) else 0
 
 
-def joined_over_seams(mesh: Mesh, label: Ints, region: Ints) -> Ints:
+def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
     """Join regions of one label that meet over a seam; faces without a label stay apart.
 
     Parameters
     ----------
-    mesh : Mesh, the cut one
+    F : (m, 3) int64, the cut mesh
     label : (m,) int64
     region : (m,) int64, all of one label each
 
@@ -99,8 +100,8 @@ def joined_over_seams(mesh: Mesh, label: Ints, region: Ints) -> Ints:
     region : (m,) int64, 0 to r - 1
     """
     n = int(region.max(initial=-1)) + 1
-    twin = mesh.edges.twin
-    h = mesh.inner_halfedges
+    twin = edges(F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
     here, there = h // 3, twin[h] // 3
     alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)
     return connected(n, region[here[alike]], region[there[alike]])[1][region]

@@ -29,9 +29,8 @@ def test_borders_lie_exactly_between_two_seeds_in_the_plane():
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     on = np.unique(e.E[e.edge_of_halfedge[h[cut.cell[h // 3] != cut.cell[e.twin[h] // 3]]]])
     off = np.abs(np.diff(np.linalg.norm(cut.mesh.V[on][:, None] - points, axis=2), axis=1))
-    assert (
-        off.max() / 2 < 0.08 * 2.2
-    )  # edges are 2.2 mm: a border goes through a vertex that it passes close by
+    # edges are 2.2 mm: a border goes through a vertex that it passes close by
+    assert off.max() / 2 < 0.08 * 2.2
 
 
 @settings(max_examples=25, deadline=None)

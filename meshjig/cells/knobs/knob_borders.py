@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.mesh.arrays import ragged, ranks, row_of
 from meshjig.mesh.cycles import cycles
-from meshjig.mesh.halfedges import edge_keys
+from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints
 
 __all__ = ["Borders", "cell_borders", "places_along"]
@@ -77,7 +77,7 @@ def cell_borders(atlas: Atlas) -> Borders:
     atlas : Atlas, every chart a disc
     """
     F = atlas.mesh.F
-    twin = atlas.mesh.edges.twin
+    twin = edges(F).twin
     start = atlas.F_uv.ravel()
     end = atlas.F_uv[:, _NEXT].ravel()
     joined = (start == end[twin]) & (end == start[twin]) & (twin != np.arange(len(twin)))

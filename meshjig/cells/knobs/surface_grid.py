@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.measure import barycentric, face_areas, interpolate, sums, unit
+from meshjig.mesh.measure import area_vectors, barycentric, face_areas, interpolate, sums, unit
 from meshjig.mesh.types import Atlas, Floats, Ints
 
 __all__ = ["Lift", "SurfaceGrid", "surface_grid"]
@@ -55,7 +55,7 @@ def surface_grid(atlas: Atlas, step: float) -> SurfaceGrid:
     cell = at[:, 0] * shape[1] + at[:, 1]
     full, row = np.unique(cell, return_inverse=True)
     n = len(full)
-    normal = atlas.mesh.area_vectors
+    normal = area_vectors(atlas.mesh.V, atlas.mesh.F)
     total = np.stack([sums(row, normal[:, k], n) for k in range(3)], 1)
     space = sums(row, np.linalg.norm(normal, axis=1) / 2, n)
     plane = sums(row, np.abs(face_areas(atlas.uv, atlas.F_uv)), n)
