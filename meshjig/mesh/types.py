@@ -21,21 +21,10 @@ __all__ = [
     "Mesh",
     "Outlines",
     "RegionGraph",
-    "Scan",
     "Stitching",
 ]
 
 GAP = -1  # the label of faces that belong to no piece
-
-
-@dataclass(frozen=True)
-class Scan:
-    """What came out of a file: the mesh to work on, what was loaded, and what was done to it."""
-
-    mesh: Mesh
-    source: Any  # the trimesh.Trimesh as loaded; UVs, textures and colours are sampled from it
-    to_source: Floats  # (4, 4), takes mesh coordinates back to those of source
-    facts: dict[str, Any] = field(default_factory=dict)  # the report's "input"
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
-from meshjig.mesh.types import Floats, Ints, Mesh, Scan
+from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.estimate import estimate
@@ -32,7 +33,7 @@ from meshjig.pipeline.verify import judged
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.worker import Background
-from meshjig.scan import self_crossings
+from meshjig.scan import Scan, self_crossings
 from meshjig.solid import Shell, kerf, shell
 
 __all__ = ["make_puzzle"]
@@ -85,7 +86,8 @@ def make_puzzle(
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
-            sheets, scan.facts["self_crossings"], crossing = beside.result()
+            sheets, n_crossings, crossing = beside.result()
+            scan = replace(scan, facts=replace(scan.facts, self_crossings=n_crossings))
             solids, solid_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
             solids, label_facts = finished(solids, surface, sheets, options)
@@ -168,7 +170,7 @@ def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> Mappe
     So a few long edges don't change the charts that `info` has shown.
     """
     if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
-        return chart(Scan(surface, scan.source, scan.to_source), options)
+        return chart(replace(scan, mesh=surface), options)
     return refine_atlas(chart(scan, options), longest)
 
 

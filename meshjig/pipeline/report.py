@@ -12,8 +12,9 @@ from meshjig.check import Verdict, area_cv, area_error, outer_gap
 from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout, Parts
 from meshjig.mesh.measure import face_areas, mesh_volume, sums
-from meshjig.mesh.types import Floats, Ints, Scan
+from meshjig.mesh.types import Floats, Ints
 from meshjig.options import Options
+from meshjig.scan import Scan
 
 __all__ = ["assemble_report", "meshjig_version"]
 
@@ -72,7 +73,7 @@ def assemble_report(
     return {
         "meshjig": meshjig_version(),
         "kind": "puzzle",
-        "input": scan.facts,
+        "input": scan.facts.as_dict(),
         "options": options.model_dump(),
         "charts" if layout.cells is None else "cells": layout.atlas.facts
         | (asdict(layout.cells.facts) if layout.cells and layout.cells.facts else {}),

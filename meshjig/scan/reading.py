@@ -13,10 +13,9 @@ import numpy as np
 from meshjig.errors import InputError
 from meshjig.mesh.types import Floats, Ints
 from meshjig.runtime.bounded import allow_file
+from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
-from meshjig.scan.native import import_pymeshlab
-from meshjig.scan.neighbours import resolver_for
-from meshjig.scan.pictures import PictureReader
+from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source, Visual, source_of
 from meshjig.scan.three_mf import read_3mf_mesh
 

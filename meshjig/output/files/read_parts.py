@@ -11,8 +11,8 @@ from meshjig.errors import InputError
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.types import Floats, Ints
 from meshjig.mesh.validated import sound_piece, weld
-from meshjig.scan.announced import gltf_shortfall
-from meshjig.scan.pictures import PictureReader
+from meshjig.scan.attachments import PictureReader
+from meshjig.scan.formats import gltf_shortfall
 from meshjig.scan.reading import load_by_trimesh
 
 __all__ = ["is_own_obj", "read_glb", "read_own_obj"]

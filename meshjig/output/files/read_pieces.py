@@ -16,8 +16,8 @@ from meshjig.mesh.validated import sound_piece, weld
 from meshjig.output.files.read_3mf import read_3mf
 from meshjig.output.files.read_parts import is_own_obj, read_glb, read_own_obj
 from meshjig.runtime.bounded import allow_file
-from meshjig.scan.announced import ply_shortfall
-from meshjig.scan.pictures import PictureReader
+from meshjig.scan.attachments import PictureReader
+from meshjig.scan.formats import ply_shortfall
 from meshjig.scan.reading import check_file, load_by_trimesh
 
 __all__ = ["read_core", "read_pieces"]

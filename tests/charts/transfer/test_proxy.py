@@ -6,7 +6,7 @@ from meshjig.charts.transfer.proxy import coarsen, proxy_mesh
 from meshjig.mesh.components import components, fans
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.mesh import Mesh
-from meshjig.scan.resolution import decimate
+from meshjig.scan.scale import decimate
 from tests.meshes import creased_box, cylinder, disc, genus2, half_sphere, noisy, open_cup, sphere, torus
 
 

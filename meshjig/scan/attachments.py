@@ -1,16 +1,23 @@
-"""Pictures that files bring: a few formats, told by their bytes; what is damaged or too large is left out."""
+"""What a mesh file brings: other files, if they are regular ones, and pictures of a few formats.
+
+Pictures are told by their bytes; what is damaged or too large is left out.
+"""
 
 from __future__ import annotations
 
 import io
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from meshjig.errors import InputError
+from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
 
-__all__ = ["PictureReader"]
+__all__ = ["PictureReader", "resolver_for"]
+
 
 FORMATS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "TGA")  # others can start programs, such as Ghostscript
 _LARGEST = 8192  # pixels a side of what is kept: 0.02 mm on a model of 150 mm
@@ -18,6 +25,44 @@ _SMALL = 4096**2  # pixels; a picture of so many is no burden
 _PACKED = 200  # pixels a byte; more of them only a picture of nothing has, or one made to hurt
 _A_PIXEL = 12.0  # bytes that reading and converting takes
 _PIXELS_A_SECOND = 1e7
+
+
+def resolver_for(path: Path, pictures: PictureReader) -> Any:
+    """Give a trimesh resolver for what a mesh file names.
+
+    Parameters
+    ----------
+    path : Path, of the mesh file
+    pictures : PictureReader, which is told what is looked for
+
+    Returns
+    -------
+    trimesh.resolvers.FilePathResolver
+        Its attribute ``refused`` is an InputError once a name has led to a pipe or a device, on which reading
+        would wait for ever; None until then.
+    """
+    from trimesh.resolvers import FilePathResolver
+
+    class RegularFiles(FilePathResolver):  # type: ignore[misc]
+        refused: InputError | None = None
+
+        def absolute(self, name: str) -> Path:
+            found = super().absolute(name)
+            pictures.asked_for = found.name
+            if not found.exists():
+                return found
+            if not stat.S_ISREG(found.stat().st_mode):
+                self.refused = InputError(
+                    f"{path} names {found.name}, which is no regular file", hint="put the file itself there"
+                )
+                raise self.refused
+            allow_file(found)
+            return found
+
+        def namespaced(self, namespace: str) -> FilePathResolver:
+            return self  # folders below are no use to any format that is read here
+
+    return RegularFiles(str(path))
 
 
 class PictureReader:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from meshjig.scan.attachments import FORMATS, PictureReader
 from meshjig.scan.load import load
-from meshjig.scan.pictures import FORMATS, PictureReader
 
 GREEN = (20, 200, 40)
 OBJ = "mtllib m.mtl\nv 0 0 0\nv 9 0 0\nv 0 9 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
@@ -20,7 +20,7 @@ def scan_with(folder, data, name="picture.png"):
     (folder / "m.obj").write_text(OBJ)
     (folder / name).write_bytes(data)
     read = load(folder / "m.obj")
-    return read.source.visual.material.image, read.facts["notes"]
+    return read.source.visual.material.image, read.notes
 
 
 def encoded(kind, size=(64, 64), colour=GREEN):
