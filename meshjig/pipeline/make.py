@@ -23,8 +23,8 @@ from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import Options
 from meshjig.output.pictures.colours import colours
-from meshjig.output.plates.estimate import estimate
-from meshjig.output.texture import coats
+from meshjig.output.plates.printers import estimate
+from meshjig.output.texture import textures
 from meshjig.pipeline.extras import add_core, core_of, finished
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
@@ -133,9 +133,11 @@ def _named(
     """Give solids their names, their colours, and the picture of the scan where it has one."""
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
-    dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
+    dressed = textures(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
-        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
+        Piece(
+            name, V, F, tuple(tint), i + 1, texture=dressed[i] if dressed else None, outer_normal=outward[i]
+        )
         for i, (name, (V, F), tint) in enumerate(zip(names, solids, tints.tolist(), strict=True))
     ]
 

@@ -11,12 +11,12 @@ from meshjig.mesh.halfedges import Edges, edges, next_halfedge
 from meshjig.mesh.measure import unit
 from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["Sheets", "is_clean", "make_manifold"]
+__all__ = ["ManifoldMesh", "is_clean", "make_manifold"]
 
 _ROUNDS = 100
 
 
-class Sheets(NamedTuple):
+class ManifoldMesh(NamedTuple):
     """A manifold mesh and what made it one."""
 
     V: Floats  # (n, 3)
@@ -41,7 +41,7 @@ def is_clean(F: Ints, n: int) -> bool:
     return bool(np.array_equal(origin, np.arange(n)))
 
 
-def make_manifold(V: Floats, F: Ints) -> Sheets:
+def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:
     """Pull apart what meets in too many faces.
 
     Around an edge with more than two faces, those that bound the same side of the material stay
@@ -56,7 +56,7 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
 
     Returns
     -------
-    Sheets
+    ManifoldMesh
     """
     e = edges(F)
     n_edges = int((e.n_faces > 2).sum())
@@ -70,7 +70,7 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
             break
         V, F = _with_middles(V, F, e, twin)
         e = edges(F)
-    return Sheets(V, F, n_edges, max(0, len(V) - n))
+    return ManifoldMesh(V, F, n_edges, max(0, len(V) - n))
 
 
 def _twins(V: Floats, F: Ints, e: Edges) -> Ints:

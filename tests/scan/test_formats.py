@@ -8,7 +8,7 @@ import zipfile
 import pytest
 
 from meshjig.errors import InputError
-from meshjig.output.files.puzzle_files import read_puzzle_files
+from meshjig.output.files.read_pieces import read_puzzle_files
 from meshjig.output.files.report_file import read_report
 from meshjig.scan.load import load
 

@@ -1,18 +1,30 @@
 """The report: what was made, what was measured, as JSON."""
 
+from __future__ import annotations
+
 import errno
 import json
 import math
 import stat
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.errors import InputError
 
-__all__ = ["read_report", "report_file", "report_text", "write_report"]
+__all__ = [
+    "Expectations",
+    "read_expectations",
+    "read_missing",
+    "read_report",
+    "report_file",
+    "report_text",
+    "title_of",
+    "write_report",
+]
+
 
 _DIGITS = 7
 _LARGEST = 16_000_000  # bytes; reports of 10,000 pieces have a third of it
@@ -63,6 +75,12 @@ def write_report(path: Path, report: Mapping[str, Any]) -> None:
     path.write_text(report_text(report), encoding="utf-8")
 
 
+def title_of(report: Mapping[str, Any]) -> str:
+    """Give the name of the model's file, or Puzzle."""
+    name = report.get("input", {}).get("file")
+    return Path(str(name)).stem if name else "Puzzle"
+
+
 def report_text(report: Mapping[str, Any]) -> str:
     """Give a report as JSON text.
 
@@ -94,3 +112,77 @@ def _plain(value: Any) -> Any:
     if value is None or isinstance(value, bool | int | str):
         return value
     return str(value)
+
+
+class Expectations(NamedTuple):
+    """What the judgement of finished pieces may know beforehand; None for what is not known."""
+
+    neighbours: list[tuple[int, int]] | None = None  # indices of pieces that share a border
+    thickness: float | None = None  # mm
+    clearance: float | None = None  # mm
+    min_wall: float | None = None  # mm
+    exempt_pieces: tuple[str, ...] = ()  # names of pieces touched by crossings of the model itself
+
+
+def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) -> Expectations:
+    """Read what the report in a folder of pieces says was asked for.
+
+    Nothing that was measured is taken from it.
+
+    Parameters
+    ----------
+    report : mapping, or None where there is none
+    names : names of the pieces that were read
+
+    Returns
+    -------
+    Expectations
+
+    Raises
+    ------
+    InputError
+        The report is damaged.
+    """
+    if report is None:
+        return Expectations()
+    try:
+        options = report["options"]
+        return Expectations(
+            _neighbours(report["pieces"], names),
+            thickness=options.get("thickness"),
+            clearance=options.get("clearance"),
+            min_wall=options.get("min_wall"),
+            exempt_pieces=tuple(report.get("exempt_pieces", ())),
+        )
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise InputError(
+            "report.json is no report of meshjig, or damaged",
+            hint="remove it to judge the pieces by themselves",
+        ) from None
+
+
+def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list[str]:
+    """List what the report in a folder of pieces tells of, and no file holds.
+
+    Parameters
+    ----------
+    report : mapping, or None where there is none
+    names : names of the pieces, and parts of the core, that were read
+    """
+    if report is None:
+        return []
+    listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
+    if not set(listed) & set(names):
+        return []  # the pieces go by other names
+    listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
+    return sorted(set(listed) - set(names))
+
+
+def _neighbours(pieces: list[dict[str, Any]], names: Sequence[str]) -> list[tuple[int, int]] | None:
+    """Give the pairs of pieces that are both there, or None where no piece goes by its number."""
+    place = {name: i for i, name in enumerate(names)}
+    at = {piece["id"]: place.get(f"piece_{piece['id']:03d}") for piece in pieces}
+    if all(i is None for i in at.values()):
+        return None
+    pairs = ((at[piece["id"]], at.get(other)) for piece in pieces for other in piece["neighbours"])
+    return sorted({(i, j) for i, j in pairs if i is not None and j is not None and i < j})

@@ -6,6 +6,7 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.rays import Floats32, Numbers
 from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["View", "axis_of", "guess_up", "view_of"]
@@ -23,6 +24,19 @@ class View:
     axes: Floats  # (3, 3), rows: right, up, forward
     centre: Floats  # (2,), middle of the frame in the plane at distance 1
     half: float  # half the larger side of the frame
+
+    def rays(self, x: Numbers, y: Numbers) -> Floats32:
+        """Give the directions (k, 3) of rays through points of the plane at distance 1."""
+        right, up, forward = self.axes.astype(np.float32)
+        out = np.empty((len(x), 3), np.float32)
+        for k in range(3):
+            out[:, k] = forward[k] + x * right[k] + y * up[k]
+        return out
+
+    def on_plane(self, points: Floats) -> Floats:
+        """Give where points (..., 3) are seen in the plane at distance 1, (..., 2)."""
+        seen = (points - self.eye) @ self.axes.T
+        return seen[..., :2] / seen[..., 2:]
 
 
 def axis_of(name: str) -> Floats:

@@ -6,15 +6,13 @@ import re
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from meshjig.mesh.types import Floats
+from meshjig.output.plates.lay_out import PlacedPiece
 from meshjig.output.plates.printers import Plate
-
-if TYPE_CHECKING:
-    from meshjig.output.plates.write_plates import Laid
 
 __all__ = ["draw_plates", "number_of"]
 
@@ -35,24 +33,25 @@ def number_of(name: str) -> str:
     return f"core {number}" if name.startswith("core_") else number
 
 
-def draw_plates(folder: Path, laid: Sequence[Laid], plate: Plate) -> None:
+def draw_plates(folder: Path, placed: Sequence[PlacedPiece], plate: Plate) -> None:
     """Write plates.svg and plates.png: every plate from above, with its pieces and their numbers.
 
     Parameters
     ----------
     folder : Path, which exists
-    laid : sequence of Laid
+    placed : sequence of PlacedPiece
     plate : Plate
     """
-    n = max((item.plate for item in laid), default=0)
+    n = max((item.plate for item in placed), default=0)
     columns = int(np.ceil(np.sqrt(n * plate.depth / plate.width))) or 1
     cell = np.array([plate.width + 2 * _MARGIN, plate.depth + 2 * _MARGIN + _TITLE])
     size = cell * np.array([columns, -(-n // columns)])
     corners = [cell * np.array([k % columns, k // columns]) + (_MARGIN, _MARGIN + _TITLE) for k in range(n)]
     titles = [
-        f"plate {k + 1} of {n}: {sum(item.plate == k + 1 for item in laid)} pieces, {plate}" for k in range(n)
+        f"plate {k + 1} of {n}: {sum(item.plate == k + 1 for item in placed)} pieces, {plate}"
+        for k in range(n)
     ]
-    drawn = [_shown(item, corners[item.plate - 1], plate) for item in laid]
+    drawn = [_shown(item, corners[item.plate - 1], plate) for item in placed]
     _write_svg(folder / "plates.svg", size, corners, titles, drawn, plate)
     _write_png(folder / "plates.png", size, corners, titles, drawn, plate)
 
@@ -64,7 +63,7 @@ class _Shown:
         self.rings, self.at, self.height, self.text = rings, at, height, text
 
 
-def _shown(item: Laid, corner: Floats, plate: Plate) -> _Shown:
+def _shown(item: PlacedPiece, corner: Floats, plate: Plate) -> _Shown:
     """Place a piece on its sheet, its number where the outline leaves most room."""
     import shapely
 

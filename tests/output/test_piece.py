@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from meshjig.output.pictures.explosion import explode_pieces, exploded, ways_out
-from meshjig.output.piece import Piece
+from meshjig.output.piece import Piece, explode_pieces, exploded, explosion
 from tests.meshes import creased_box, moved, sphere, torus
 
 PLACES = [[0, 0, 0], [120, 0, 0], [0, 150, 40], [-130, 20, -90]]
@@ -50,5 +49,5 @@ def test_vertices_in_any_order_move_with_their_piece():
 
 def test_one_piece_alone_stays_and_none_gives_none():
     V = sphere(300).V
-    np.testing.assert_allclose(ways_out(V, np.zeros(len(V), np.int64)), [[0, 0, 0]], atol=1e-9)
+    np.testing.assert_allclose(explosion(V, np.zeros(len(V), np.int64)), [[0, 0, 0]], atol=1e-9)
     assert explode_pieces([], 1.0) == []

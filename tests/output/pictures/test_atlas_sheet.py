@@ -4,8 +4,8 @@ from PIL import Image
 from meshjig.charts import build_atlas
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Mesh
-from meshjig.output.pictures.scene import scene_of
-from meshjig.output.pictures.seam_lines import cuts, draw_lines
+from meshjig.output.pictures.atlas_sheet import cuts
+from meshjig.output.pictures.scene import draw_lines, scene_of
 from meshjig.output.pictures.view import view_of
 from tests.meshes import cylinder, sphere
 
