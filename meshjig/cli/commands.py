@@ -138,7 +138,7 @@ def info(
             from meshjig.scan import describe
 
             found = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
-            facts = found.as_dict()
+            facts = dict(found.as_dict())
         emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 

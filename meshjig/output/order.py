@@ -49,7 +49,7 @@ def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]])
     """Order pieces from the bottom up, each on what is there already.
 
     The lowest piece is first; next is always the lowest of those that touch a piece placed before. Where
-    none does, the lowest that is left begins anew. Nothing makes sure that a piece can get to its place.
+    none does, the lowest that is left begins again. Nothing makes sure that a piece can get to its place.
 
     Parameters
     ----------

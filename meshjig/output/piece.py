@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.mesh import concatenate
-from meshjig.mesh.types import Floats, Ints
 from meshjig.output.texture import Texture
 
 __all__ = ["Piece", "explode_pieces", "exploded", "explosion"]
@@ -35,7 +35,7 @@ class Piece:
 
 
 def explosion(V: Floats, piece_of_vertex: Ints) -> Floats:
-    """Say which way, and how far, each piece goes when everything is scaled to twice its size.
+    """Give where, and how far, each piece goes when everything is scaled to twice its size.
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines,
 from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
+from meshjig.output.report import Report, write_report
 from meshjig.runtime.worker import Background
 
 __all__ = ["FORMATS", "Outputs", "save_puzzle"]
@@ -46,7 +47,7 @@ def save_puzzle(
     *,
     curves: Curves | None = None,
     core: Sequence[Piece] = (),
-) -> dict[str, Any]:
+) -> Report:
     """Write a puzzle to a folder that appears whole or not at all.
 
     Parameters
@@ -104,8 +105,6 @@ def save_puzzle(
             with _lap(seconds, "guide"):
                 _write_guide(folder, pieces, report, plates, pictures)
         seconds |= pictures.result()
-        from meshjig.output.files.report_file import write_report
-
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written

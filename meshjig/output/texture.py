@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.mesh import concatenate
-from meshjig.mesh.types import Bools, Floats, Ints, Mesh
+from meshjig.mesh.mesh import Mesh, concatenate
 
 __all__ = ["Texture", "colour_of_vertex", "textures"]
 
@@ -176,7 +176,7 @@ def _moved(points: Floats, matrix: Floats) -> Floats:
 
 
 def _closest(points: Floats, V: Floats, F: Ints) -> tuple[Floats, Ints, Floats]:
-    """Give the distance to a mesh, the face that is nearest, and the nearest point."""
+    """The distance to a mesh, the face that is nearest, and the nearest point."""
     import igl
 
     square, face, nearest = igl.point_mesh_squared_distance(points, V, F)[:3]

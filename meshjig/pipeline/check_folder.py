@@ -8,7 +8,7 @@ from typing import Any
 
 from meshjig.check import add_failures, judge, judge_core
 from meshjig.output.files.read_pieces import read_puzzle_files
-from meshjig.output.files.report_file import read_expectations, read_missing
+from meshjig.output.report import read_expectations, read_missing
 
 __all__ = ["rejudge"]
 

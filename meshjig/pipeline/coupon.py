@@ -101,8 +101,8 @@ def save_coupon(directory: str | Path, options: Options) -> dict[str, Any]:
         The folder can't be written, or holds something else.
     """
     from meshjig.output.files.mesh_files import write_stl
-    from meshjig.output.files.report_file import write_report
     from meshjig.output.files.threemf import write_3mf
+    from meshjig.output.report import write_report
 
     pieces = make_coupon(options)
     size = np.ptp(np.concatenate([piece.V for piece in pieces]), axis=0)

@@ -13,8 +13,8 @@ from meshjig.charts import MappedAtlas, build_atlas
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.output.files.report_file import write_report
 from meshjig.output.folder import replace_folder, reserve_folder
+from meshjig.output.report import write_report
 from meshjig.pipeline.report import meshjig_version
 from meshjig.scan import Scan, read_scan
 from meshjig.scan.fill import fill_holes

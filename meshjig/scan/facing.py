@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, face_areas, interpolate, unit
+from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.rays import RayScene
-from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["turn_by_sight"]
 
@@ -40,7 +41,7 @@ def turn_by_sight(V: Floats, F: Ints) -> Ints:
     sheets = np.unique(component[mesh.borders // 3])
     if not len(sheets):
         return F
-    scene = RayScene(V, F)
+    scene = RayScene(V, F, robust=False)
     extent = float(np.ptp(V, axis=0).max())
     turned = np.zeros(mesh.n_components, bool)
     for sheet in sheets:

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.subdivide import refine_long_edges
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["CORNERS", "Field", "follow", "signed_field", "steps", "well_composed"]
 
@@ -78,8 +78,8 @@ def signed_field(V: Floats, F: Ints, cell: float) -> Field:
     """
     points, _ = refine_long_edges(V, F, cell)
     low = points.min(axis=0) - 3.49 * cell  # flat sides of a model don't fall on the grid
-    touched = np.unique(steps(np.floor((points - low) / cell).astype(np.int64)))
-    near = np.unique(touched[:, None] + steps(_offsets(-1, 2)))
+    met = np.unique(steps(np.floor((points - low) / cell).astype(np.int64)))
+    near = np.unique(met[:, None] + steps(_offsets(-1, 2)))
     key = np.unique(near[:, None] + steps(CORNERS))
     none = np.zeros(0, np.int64)
     return follow(_with_corners(Field(V, F, low, cell, none, np.zeros(0), near, none), key))
@@ -112,7 +112,7 @@ def _with_corners(field: Field, key: Ints) -> Field:
 
 
 def _values(field: Field, points: Floats) -> Floats:
-    """Give the distance with the winding number as its sign, so far as it is clear.
+    """The distance with the winding number as its sign, so far as it is clear.
 
     Over a hole the distance does not vanish: the value must go through 0 smoothly there.
     """
@@ -126,7 +126,7 @@ def _values(field: Field, points: Floats) -> Floats:
 
 
 def _crossed_cubes(field: Field) -> Ints:
-    """Give the cubes around all grid edges that cross the surface."""
+    """The cubes around all grid edges that cross the surface."""
     cubes = [np.zeros(0, np.int64)]
     for axis in range(3):
         key = field.key[field.crossed(axis)]
@@ -171,7 +171,7 @@ def well_composed(field: Field) -> Field:
 
 
 def _to_fill(value: Floats) -> np.ndarray:
-    """Give the corner to fill of each cube (c, 8), -1 where it has one sheet."""
+    """The corner to fill of each cube (c, 8), -1 where it has one sheet."""
     inside = value < 0
     wanted: Bools = np.zeros_like(inside)
     for square in _SQUARES:

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.scan.manifold import is_clean
 
 __all__ = ["Filled", "FilledHoles", "fill_holes"]

@@ -191,7 +191,7 @@ def gltf_shortfall(path: Path) -> str:
 
 
 def _least_size(words: list[str], is_text: bool) -> int:
-    """Give the bytes that a property of a PLY file takes at least."""
+    """The bytes that a property of a PLY file takes at least."""
     if len(words) < 3 or words[0] != "property":
         return 0
     return 2 if is_text else _PLY_TYPES.get(words[1] if words[1] != "list" else words[2], 1)
@@ -206,7 +206,7 @@ def _gltf_header(path: Path) -> Any:
 
 
 def _size_beside(path: Path, buffer: Any) -> int:
-    """Give the bytes of a buffer in a file of its own."""
+    """The bytes of a buffer in a file of its own."""
     from urllib.parse import unquote
 
     uri = buffer.get("uri")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import OutOfBounds
 from meshjig.runtime.read_ahead import ReadAhead
 from meshjig.scan.reading import FileMesh, flattened
@@ -101,7 +101,7 @@ def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Source:
 
 
 def _checked(mesh: Any, name: str) -> tuple[Floats, Ints]:
-    """Give the arrays of a trimesh, if they are a surface."""
+    """The arrays of a trimesh, if they are a surface."""
     V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64).reshape(-1, 3)
     F = np.array(getattr(mesh, "faces", np.zeros((0, 3))), np.int64).reshape(-1, 3)
     if not len(F):

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import Edges, edges, next_halfedge
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["ManifoldMesh", "is_clean", "make_manifold"]
 
@@ -74,7 +74,7 @@ def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:
 
 
 def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
-    """Give each half-edge's twin, also where more than two faces meet; itself where there is none."""
+    """Each half-edge's twin, also where more than two faces meet; itself where there is none."""
     twin = e.twin.copy()
     h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] > 2)
     if not len(h):

@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, face_areas
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Sides", "make_coherent", "turn_outward"]
 
@@ -114,7 +113,7 @@ def _with_border(F: Ints, n: int, component: Ints) -> Bools:
 
 
 def _volumes(V: Floats, F: Ints, n: int, component: Ints, open_: Bools) -> Floats:
-    """Give each component's signed volume; an open one is measured from the middle of its border."""
+    """Each component's signed volume; an open one is measured from the middle of its border."""
     twin = edges(F).twin
     h = np.flatnonzero(twin == np.arange(len(twin)))
     # closed: any origin does, one nearby is exact; open: cones over the border's middle close it
@@ -146,7 +145,7 @@ def _depth(V: Floats, F: Ints, n: int, component: Ints, open_: Bools) -> Ints:
 
 
 def _winding(points: Floats, triangles: Floats) -> Floats:
-    """Give the winding number of triangles (m, 3, 3) around each point.
+    """The winding number of triangles (m, 3, 3) around each point.
 
     References
     ----------

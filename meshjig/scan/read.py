@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.intersections import self_crossings
-from meshjig.mesh.types import Floats, Mesh
+from meshjig.mesh.mesh import Mesh
 from meshjig.scan.fill import FilledHoles
 from meshjig.scan.load import load
 from meshjig.scan.repair import Repairs, repair
@@ -42,7 +44,7 @@ class ScanFacts:
     resurfaced: ResurfaceFacts | None  # None when it was not asked for
     filled_holes: FilledHoles | None = None
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> Mapping[str, Any]:
         """Give the facts as the report has them, without those of holes before any were looked for."""
         facts = asdict(self)
         if self.filled_holes is None:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
@@ -140,7 +140,7 @@ def flattened(loaded: Any) -> Any:
 
 
 def _by_trimesh(path: Path, pictures: PictureReader) -> Source | None:
-    """Give a mesh, perhaps without faces, or None."""
+    """Read a mesh, perhaps without faces; None where it fails."""
     try:
         return source_of(flattened(load_by_trimesh(path, pictures)))
     except InputError:

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.scan.manifold import is_clean, make_manifold
 from meshjig.scan.orient import make_coherent, turn_outward
 from meshjig.scan.weld import drop_doubles, flip_flat, weld
@@ -117,7 +117,7 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
 
 
 def _used(V: Floats, F: Ints) -> tuple[Floats, Ints]:
-    """Give the mesh without unused vertices."""
+    """The mesh without unused vertices."""
     if not len(F):
         raise InputError("no faces are left after repair: all were points, lines or doubles")
     F, kept = compact(F)

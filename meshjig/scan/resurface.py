@@ -8,10 +8,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.intersections import self_crossings
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.contour import Contour, contour
 from meshjig.scan.facing import turn_by_sight
 from meshjig.scan.field import signed_field, well_composed
@@ -119,7 +119,7 @@ def resurfacing_cell(V: Floats, F: Ints, faces: int | Literal["all"]) -> float:
 
 
 def _uncrossed(made: Contour, cell: float) -> Floats:
-    """Give the vertices so that no two faces cross.
+    """Move vertices until no two faces cross.
 
     Those that are in the way go back in two legs: to the middle of the surface in their cube, then to the
     middle of the cube. Where all have come so far, none can cross.

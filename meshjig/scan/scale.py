@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
-from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.manifold import is_clean
 from meshjig.scan.repair import repair
 

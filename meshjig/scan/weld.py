@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["drop_doubles", "flip_flat", "weld"]
 
@@ -46,7 +45,7 @@ def weld(V: Floats, F: Ints, tolerance: float) -> tuple[Floats, Ints, int]:
 
 
 def _close_pairs(V: Floats, candidates: Ints, tolerance: float) -> Ints:
-    """Give enough pairs of candidates to connect all that lie within tolerance."""
+    """Enough pairs of candidates to connect all that lie within tolerance."""
     from scipy.spatial import cKDTree
 
     P = V[candidates] + 0.0  # -0 and 0 are one place
@@ -125,7 +124,7 @@ def _flat(V: Floats, F: Ints, height: float) -> tuple[Bools, Ints]:
 
 
 def _corner(F: Ints, h: Ints, k: int) -> Ints:
-    """Give the corner k steps after the start of half-edges."""
+    """The corner k steps after the start of half-edges."""
     return F[h // 3, (h + k) % 3]
 
 

@@ -6,7 +6,7 @@ import trimesh
 from PIL import Image
 
 from meshjig.mesh.measure import area_vectors
-from meshjig.mesh.types import Mesh
+from meshjig.mesh.mesh import Mesh
 from meshjig.output.files.mesh_files import write_glb, write_obj, write_ply
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.files.threemf import write_3mf

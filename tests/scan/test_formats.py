@@ -9,7 +9,7 @@ import pytest
 
 from meshjig.errors import InputError
 from meshjig.output.files.read_pieces import read_puzzle_files
-from meshjig.output.files.report_file import read_report
+from meshjig.output.report import read_report
 from meshjig.scan.load import load
 
 PLY = """ply

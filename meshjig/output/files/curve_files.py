@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
 __all__ = ["Curves", "write_dxf", "write_obj_lines", "write_svg"]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.piece import Piece
 from meshjig.output.texture import colour_of_vertex
 

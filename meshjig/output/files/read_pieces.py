@@ -11,11 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
 from meshjig.mesh.validated import sound_piece, weld
-from meshjig.output.files.read_parts import is_own_obj, read_glb, read_own_obj
-from meshjig.output.files.report_file import read_report
+from meshjig.output.files.read_parts import NamedPiece, is_own_obj, read_glb, read_own_obj
 from meshjig.output.files.threemf import read_3mf
+from meshjig.output.report import Report, read_report
 from meshjig.runtime.bounded import Bounded, OutOfBounds, allow_file
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.formats import ply_shortfall
@@ -26,7 +25,6 @@ __all__ = ["PuzzleFiles", "read_core", "read_pieces", "read_puzzle_files"]
 
 MESHES = (".stl", ".obj", ".ply")  # a piece a file, but for an OBJ that meshjig wrote
 PACKAGES = (".3mf", ".glb")
-NamedPiece = tuple[str, Floats, Ints]
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
@@ -143,7 +141,7 @@ def _read_mesh(path: Path) -> NamedPiece:
 
 
 def _binary_stl(path: Path) -> tuple[Any, Any]:
-    """Give a soup of corners, or (None, None) where the file is no binary STL."""
+    """A soup of corners, or (None, None) where the file is no binary STL."""
     data = path.read_bytes()
     if len(data) == 0:
         raise InputError(f"{path} is empty")
@@ -180,7 +178,7 @@ class PuzzleFiles(NamedTuple):
 
     pieces: list[NamedPiece]
     core: list[NamedPiece]
-    report: dict[str, Any] | None  # None where there is none
+    report: Report | None  # None where there is none
 
 
 def read_puzzle_files(paths: Sequence[str | os.PathLike[str]]) -> PuzzleFiles:

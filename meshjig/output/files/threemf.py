@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import InputError, OutputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.validated import sound_piece, weld
 from meshjig.output.piece import Piece
 from meshjig.output.texture import Texture
@@ -157,7 +157,7 @@ def _meshes(resource: Any, placed: Floats) -> Iterator[tuple[Any, Floats]]:
 
 
 def _matrix(transform: Any) -> Floats:
-    """Give a transform as a matrix that multiplies row vectors from the right."""
+    """A transform as a matrix that multiplies row vectors from the right."""
     matrix = np.eye(4)
     matrix[:, :3] = np.array([list(row) for row in transform.Fields])
     return matrix

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.guide.proxy import PlacedFaces, ProxyModel, meet
 from meshjig.output.pictures.view import View, view_of
 
@@ -122,5 +122,5 @@ def _seen(model: ProxyModel, placed: PlacedFaces, new: Sequence[int], places: Se
 
 
 def _some(faces: Ints) -> Ints:
-    """Give every few of many."""
+    """A few of many faces, evenly spaced."""
     return faces[np.linspace(0, len(faces) - 1, min(len(faces), _RAYS)).astype(np.int64)]

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OutputError
-from meshjig.mesh.types import Bools
-from meshjig.output.files.report_file import title_of
+from meshjig.mesh.arrays import Bools
 from meshjig.output.guide.pages import LEFT, RIGHT, WIDTH, Document, Page, text_width
 from meshjig.output.guide.parts_pages import outlines, parts_pages
 from meshjig.output.guide.proxy import join_pieces
@@ -21,6 +20,7 @@ from meshjig.output.guide.table_pages import table_pages
 from meshjig.output.order import assembly_of
 from meshjig.output.pictures.preview import draw_whole
 from meshjig.output.piece import Piece
+from meshjig.output.report import title_of
 
 __all__ = ["FILE", "cover_of_preview", "trimmed", "write_guide"]
 

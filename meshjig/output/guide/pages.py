@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
 __all__ = [
     "BOTTOM",

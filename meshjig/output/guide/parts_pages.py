@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.mesh.halfedges import border_halfedges, edge_keys, next_halfedge
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Floats, Ints
 from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Document, Page, text_width
 from meshjig.output.guide.proxy import JoinedPieces
 from meshjig.output.plates.pack import convex_ring, least_rectangle
@@ -168,7 +168,7 @@ def _area(ring: Floats) -> float:
 
 
 def _plane(outward: Floats) -> Floats:
-    """Give the picture plane of an eye that looks against a direction: rows right and up, (2, 3)."""
+    """The picture plane of an eye that looks against a direction: rows right and up, (2, 3)."""
     n = unit(outward)
     right = unit(np.cross(np.eye(3)[np.abs(n).argmin()], n))
     return np.stack([right, np.cross(n, right)])

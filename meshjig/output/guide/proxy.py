@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.mesh import concatenate
 from meshjig.mesh.rays import Floats32
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.output.pictures.scene import Scene, scene_of, shifted
 from meshjig.output.pictures.view import guess_up
 from meshjig.output.piece import Piece
@@ -120,7 +120,7 @@ def proxy_model(joined: JoinedPieces, steps: Sequence[Sequence[int]]) -> ProxyMo
 
 
 def _outward(pieces: Sequence[Piece]) -> Floats:
-    """Give where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
+    """Where the outer sides face, (p, 3); away from the middle of the model where nobody knows."""
     middles = np.array([piece.V.mean(axis=0) for piece in pieces])
     away = middles - middles.mean(axis=0)
     told = [piece.outer_normal for piece in pieces]
@@ -128,7 +128,7 @@ def _outward(pieces: Sequence[Piece]) -> Floats:
 
 
 def _turns(n: int, steps: Sequence[Sequence[int]]) -> Ints:
-    """Give when each piece's turn is, (n,); n for those that are never placed."""
+    """When each piece's turn is, (n,); n for those that are never placed."""
     turn = np.full(n, n)
     row = [piece - 1 for step in steps for piece in step]
     turn[row] = np.arange(len(row))

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import unit
 from meshjig.mesh.rays import Floats32
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.output.guide.proxy import PlacedFaces, meet
 from meshjig.output.pictures.view import View
 
@@ -118,7 +118,7 @@ def _worth_a_ray(placed: PlacedFaces, view: View, frame: Frame) -> Bools:
 
 
 def _shade(normal: Floats32, view: View) -> Floats32:
-    """Give how bright vertices look, (n,): with little contrast, so that numbers can be read on them."""
+    """How bright vertices look, (n,): with little contrast, so that numbers can be read on them."""
     lamp = (unit(np.array(_LAMP)) @ view.axes).astype(np.float32)
     toward_eye, up = -view.axes[2].astype(np.float32), view.axes[1].astype(np.float32)
     lit = np.clip(normal @ lamp, 0, 1)
@@ -133,7 +133,7 @@ def _fade(shape: tuple[int, ...]) -> Floats32:
 
 
 def _ink(piece: Ints, depth: Floats32, fresh: Bools) -> Floats32:
-    """Give how black borders and hatching make each pixel, 0 to 1."""
+    """How black borders and hatching make each pixel, 0 to 1."""
     thin, bold = np.zeros(piece.shape, np.float32), np.zeros(piece.shape, np.float32)
     for p, d, n, fine, strong in (
         (piece, depth, fresh, thin, bold),

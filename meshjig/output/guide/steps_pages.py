@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 from meshjig.output.guide.cameras import Camera, cameras, choose_cameras
 from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Document, Page, tag_size, text_width, wrapped
 from meshjig.output.guide.place_labels import Label, place_labels

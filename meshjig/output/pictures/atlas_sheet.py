@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.mesh.halfedges import border_halfedges, edges, next_halfedge
 from meshjig.mesh.measure import singular_values
-from meshjig.mesh.types import Atlas, Floats, Ints
+from meshjig.mesh.types import Atlas
 from meshjig.output.pictures.colours import colours
 from meshjig.output.pictures.render import render
 from meshjig.output.pictures.scene import draw_lines, scene_of
@@ -153,7 +154,7 @@ def _hex(colour: Floats) -> str:
 
 
 def _outlines(atlas: Atlas) -> list[str]:
-    """Give the border of every chart as SVG path data; the y of SVG runs downward."""
+    """The border of every chart as SVG path data; the y of SVG runs downward."""
     corner, h = atlas.F_uv.ravel(), border_halfedges(atlas.F_uv)[::-1]
     data = [""] * atlas.n_charts
     for loop in closed_loops(corner[h], corner[next_halfedge(h)]):

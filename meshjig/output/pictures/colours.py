@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
 __all__ = ["colours", "oklab", "to_linear", "to_srgb"]
 

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Bools, Ints
 from meshjig.mesh.measure import unit
 from meshjig.mesh.rays import Floats32
-from meshjig.mesh.types import Bools, Ints
 from meshjig.output.pictures.colours import to_srgb
 from meshjig.output.pictures.scene import Hits, Scene, cast
 from meshjig.output.pictures.view import View
@@ -87,7 +87,7 @@ def _mark_sides(change: Bools, mark: Bools) -> None:
 
 
 def _line_cover(identity: Ints, row: Ints, column: Ints) -> Floats32:
-    """Give how much of each subpixel a line of three subpixels' width covers, with soft borders."""
+    """How much of each subpixel a line of three subpixels' width covers, with soft borders."""
     border = np.zeros((identity.shape[0] + 2, identity.shape[1] + 2), bool)
     inside = border[1:-1, 1:-1]
     _mark_sides(identity[1:] != identity[:-1], inside)
@@ -107,7 +107,7 @@ def _display(light: Floats32) -> NDArray[np.uint8]:
 
 
 def open_sky(scene: Scene, hits: Hits, size: int) -> Floats32:
-    """Give the share of the sky that nothing near hides (ambient occlusion).
+    """The share of the sky that nothing near hides (ambient occlusion).
 
     Parameters
     ----------

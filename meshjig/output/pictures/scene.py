@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
 from meshjig.mesh.mesh import concatenate
 from meshjig.mesh.rays import Floats32, RayScene
-from meshjig.mesh.types import Floats, Ints
 from meshjig.output.pictures.colours import to_linear
 from meshjig.output.pictures.view import View
 from meshjig.output.piece import Piece
@@ -91,7 +91,7 @@ def shifted(scene: Scene, V: Floats) -> Scene:
 
 
 def _ball(V: Floats) -> tuple[Floats, float]:
-    """Give the middle and the radius of a ball around points."""
+    """The middle and the radius of a ball around points."""
     low, high = V.min(axis=0), V.max(axis=0)
     return (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-12)
 

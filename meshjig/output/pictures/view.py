@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.rays import Floats32, Numbers
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["View", "axis_of", "guess_up", "view_of"]
 
@@ -91,7 +91,7 @@ def guess_up(V: Floats, F: Ints) -> Floats:
 
 
 def _common_directions(normal: Floats, size: Floats) -> Floats:
-    """Give the normals that most area has, roughly, at most ten."""
+    """The normals that most area has, roughly, at most ten."""
     cell = np.round(normal * 6).astype(np.int64) + 6
     code = cell @ np.array([169, 13, 1])
     weight = np.bincount(code, size, 13**3)

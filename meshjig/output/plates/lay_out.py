@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 from meshjig.output.piece import Piece
 from meshjig.output.plates.pack import (
     Placements,

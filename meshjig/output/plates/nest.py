@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.plates.pack import Placements, pack
 from meshjig.output.plates.printers import Plate
 

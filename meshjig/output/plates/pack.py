@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import OutputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.plates.printers import Plate
 
 __all__ = ["Placements", "convex_ring", "fits", "footprint", "least_rectangle", "pack", "size_at"]
@@ -113,7 +113,7 @@ def _packings(steps: Ints, bed: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
 
 
 def _rank(packing: tuple[Ints, Ints, Ints]) -> tuple[int, int]:
-    """Give the last plate's number and how many lie on it; less is better."""
+    """The last plate's number and how many lie on it; less is better."""
     number = packing[0]
     last = int(number.max())
     return last, int((number == last).sum())
@@ -125,7 +125,7 @@ def _lowest(points: Floats, turn: float) -> Floats:
 
 
 def footprint(V: Floats, F: Ints) -> Any:
-    """Give the shadow of a piece on the xy plane.
+    """The shadow of a piece on the xy plane.
 
     Parameters
     ----------

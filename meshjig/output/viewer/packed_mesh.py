@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.arrays import connected
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.mesh import concatenate
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.output.piece import Piece
 
 __all__ = ["PackedMesh", "pack"]
@@ -164,5 +163,5 @@ def _in_order_of_use(F: Ints) -> tuple[Ints, Ints]:
 
 
 def _planes(values: Ints, width: int) -> Bytes:
-    """Give the lowest bytes of all values, then the next, and so on."""
+    """The lowest bytes of all values, then the next, and so on."""
     return np.concatenate([(values >> 8 * k & 255).astype(np.uint8) for k in range(width)])

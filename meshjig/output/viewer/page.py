@@ -18,10 +18,10 @@ import numpy as np
 from meshjig.errors import InputError, OutputError
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.mesh import concatenate
-from meshjig.output.files.report_file import report_text, title_of
 from meshjig.output.order import assembly_of
 from meshjig.output.pictures.view import guess_up, view_of
 from meshjig.output.piece import Piece, explosion
+from meshjig.output.report import report_text, title_of
 from meshjig.output.viewer.packed_mesh import pack
 
 __all__ = ["open_viewer", "viewer_html", "write_viewer"]
@@ -148,12 +148,12 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
             {
                 "id": number,
                 "colour": _hex(piece.colour),
-                "way": way,
+                "way": move,
                 "area": entry.get("area_mm2", face_areas(piece.V, piece.F).sum() / 2),
                 "neighbours": entry.get("neighbours", []),
                 "plate": plates.get(piece.name),
             }
-            for number, (piece, way, entry) in enumerate(
+            for number, (piece, move, entry) in enumerate(
                 zip(pieces, explosion(V, piece_of_vertex), told, strict=True), 1
             )
         ],
@@ -161,7 +161,7 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
 
 
 def _picture(pieces: Sequence[Piece]) -> str | None:
-    """Give the scan's image as a data address, no larger than screens can use."""
+    """The scan's image as a data address, no larger than screens can use."""
     image = next(
         (p.texture.image for p in pieces if p.texture is not None and p.texture.uv is not None), None
     )

@@ -3,7 +3,7 @@ from PIL import Image
 
 from meshjig.charts import build_atlas
 from meshjig.mesh.halfedges import edges
-from meshjig.mesh.types import Mesh
+from meshjig.mesh.mesh import Mesh
 from meshjig.output.pictures.atlas_sheet import cuts
 from meshjig.output.pictures.scene import draw_lines, scene_of
 from meshjig.output.pictures.view import view_of

@@ -9,9 +9,8 @@ from meshjig.mesh.measure import mesh_volume
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.piece import Piece
 from meshjig.output.plates.lay_out import lay_out
-from meshjig.output.plates.plate_sheet import number_of
 from meshjig.output.plates.printers import Plate
-from meshjig.output.plates.write_plates import write_plates
+from meshjig.output.plates.write_plates import number_of, write_plates
 from meshjig.output.texture import Texture
 from tests.output.plates.tiles import bent, turned
 

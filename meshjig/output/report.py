@@ -16,6 +16,7 @@ from meshjig.errors import InputError
 
 __all__ = [
     "Expectations",
+    "Report",
     "read_expectations",
     "read_missing",
     "read_report",
@@ -26,6 +27,7 @@ __all__ = [
 ]
 
 
+Report = dict[str, Any]  # what report.json holds
 _DIGITS = 7
 _LARGEST = 16_000_000  # bytes; reports of 10,000 pieces have a third of it
 
@@ -48,7 +50,7 @@ def report_file(path: Path) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def read_report(path: Path) -> dict[str, Any]:
+def read_report(path: Path) -> Report:
     """Read the report of a folder that meshjig made.
 
     Raises
@@ -121,7 +123,7 @@ class Expectations(NamedTuple):
     thickness: float | None = None  # mm
     clearance: float | None = None  # mm
     min_wall: float | None = None  # mm
-    exempt_pieces: tuple[str, ...] = ()  # names of pieces touched by crossings of the model itself
+    exempt_pieces: tuple[str, ...] = ()  # names of pieces affected by crossings of the model itself
 
 
 def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) -> Expectations:
@@ -178,8 +180,8 @@ def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list
     return sorted(set(listed) - set(names))
 
 
-def _neighbours(pieces: list[dict[str, Any]], names: Sequence[str]) -> list[tuple[int, int]] | None:
-    """Give the pairs of pieces that are both there, or None where no piece goes by its number."""
+def _neighbours(pieces: list[Report], names: Sequence[str]) -> list[tuple[int, int]] | None:
+    """The pairs of pieces that are both there, or None where no piece goes by its number."""
     place = {name: i for i, name in enumerate(names)}
     at = {piece["id"]: place.get(f"piece_{piece['id']:03d}") for piece in pieces}
     if all(i is None for i in at.values()):

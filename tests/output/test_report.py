@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from meshjig.errors import InputError
-from meshjig.output.files.report_file import Expectations, read_expectations, read_missing, write_report
+from meshjig.output.report import Expectations, read_expectations, read_missing, write_report
 
 PIECES = [{"id": 1, "neighbours": [2, 3]}, {"id": 2, "neighbours": [1]}, {"id": 3, "neighbours": [1]}]
 NAMES = ["piece_001", "piece_002", "piece_003"]
