@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats
 from meshjig.output import piece as named
-from meshjig.output.files.puzzle_files import read_puzzle_files
-from meshjig.output.save import save_puzzle
+from meshjig.output.files.curve_files import Curves
+from meshjig.output.files.read_pieces import read_puzzle_files
+from meshjig.output.save import Outputs, save_puzzle
 
 __all__ = ["Curves", "Piece", "Puzzle"]
 
@@ -29,14 +29,6 @@ class Piece(named.Piece):
         import trimesh
 
         return trimesh.Trimesh(self.V, self.F, process=False)
-
-
-@dataclass(frozen=True)
-class Curves:
-    """The cuts as polylines."""
-
-    plane: list[Floats] = field(default_factory=list)  # each (k, 2), mm, in the charts' plane
-    space: list[Floats] = field(default_factory=list)  # each (k, 3), mm
 
 
 @dataclass(frozen=True)
@@ -79,21 +71,17 @@ class Puzzle:
             The folder can't be written, or holds something else.
         """
         asked = self.report["options"]
-        self.report.update(
-            save_puzzle(
-                directory,
-                self.pieces,
-                self.report,
-                formats=formats if formats is not None else asked["format"],
-                plane_curves=self.curves.plane,
-                space_curves=self.curves.space,
-                preview=preview,
-                viewer=viewer and asked.get("viewer", True),
-                guide=guide and asked.get("guide", True),
-                core=self.core,
-                **{key: asked[key] for key in ("plate", "nest", "explode", "turntable") if key in asked},
-            )
+        outputs = Outputs(
+            formats if formats is not None else asked["format"],
+            preview,
+            viewer and asked.get("viewer", True),
+            guide and asked.get("guide", True),
+            **{key: asked[key] for key in ("plate", "nest", "explode", "turntable") if key in asked},
         )
+        written = save_puzzle(
+            directory, self.pieces, self.report, outputs, curves=self.curves, core=self.core
+        )
+        self.report.update(written)
         return Path(directory)
 
     def plot(self, size: int = 800) -> Any:
@@ -115,7 +103,7 @@ class Puzzle:
         """
         from PIL import Image
 
-        from meshjig.output.pictures.whole import draw_whole
+        from meshjig.output.pictures.preview import draw_whole
 
         return Image.fromarray(draw_whole(self.pieces, size))
 

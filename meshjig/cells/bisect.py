@@ -5,8 +5,10 @@ from typing import Any
 import numpy as np
 
 from meshjig.cells.surface import Surface
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import unit
+from meshjig.mesh.shortest_paths import distances, path_back
 from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["loops", "poles_of", "side_of"]
@@ -25,7 +27,7 @@ def side_of(s: Surface, region: Ints, poles: tuple[int, int]) -> Floats:
     Parameters
     ----------
     s : Surface
-    region : (k,) int64, vertices that hang together, in ascending order
+    region : (k,) int64, connected vertices, in ascending order
     poles : two of them
 
     Returns
@@ -46,8 +48,6 @@ def side_of(s: Surface, region: Ints, poles: tuple[int, int]) -> Floats:
 
 def _ends(s: Surface, region: Ints, graph: Any) -> list[Ints]:
     """Give the two longest rims of a region, or its rim and the vertex farthest from it."""
-    from scipy.sparse.csgraph import connected_components
-
     inside = np.zeros(len(s.V), bool)
     inside[region] = True
     a, b = s.e.E.T
@@ -55,30 +55,23 @@ def _ends(s: Surface, region: Ints, graph: Any) -> list[Ints]:
     rim = np.flatnonzero(np.isin(region, out))
     if not len(rim):
         return [np.array([0]), np.array([_from(graph, np.array([0])).argmax()])]
-    k, part = connected_components(graph[rim][:, rim], directed=False)
+    k, part = connected(len(rim), *graph[rim][:, rim].nonzero())
     rims = [rim[part == i] for i in np.argsort(-np.bincount(part), kind="stable")[:2]]
     return rims if k > 1 else [rim, np.array([_from(graph, rim).argmax()])]
 
 
 def _line(graph: Any, pole: int, ends: list[Ints]) -> Ints:
-    """Give the vertices on the shortest ways from a pole to both ends."""
+    """Give the vertices on the shortest paths from a pole to both ends."""
     from scipy.sparse.csgraph import dijkstra
 
     far, before = dijkstra(graph, indices=pole, return_predecessors=True)
-    line = [pole]
-    for end in ends:
-        at = int(end[far[end].argmin()])
-        while at >= 0 and at != pole:
-            line.append(at)
-            at = int(before[at])
-    return np.unique(line)
+    paths = [path_back(before, int(end[far[end].argmin()])) for end in ends]
+    return np.unique(np.concatenate([[pole], *paths]))
 
 
 def _from(graph: Any, sources: Ints) -> Floats:
-    """Give distances from sources; where there is no way, that of the farthest vertex."""
-    from scipy.sparse.csgraph import dijkstra
-
-    far: Floats = dijkstra(graph, indices=sources, min_only=True)
+    """Give distances from sources; where there is no path, that of the farthest vertex."""
+    far = distances(graph, sources)
     known = np.isfinite(far)
     return np.where(known, far, far[known].max(initial=0.0))
 
@@ -110,22 +103,17 @@ def poles_of(V: Floats, inside: Ints, F: Ints, W: Floats) -> Ints:
     flat = x - (x @ axis)[:, None] * axis
     plane = np.linalg.svd(flat - flat.mean(0), full_matrices=False)[2][:2]
     angle = np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-    way = np.stack([np.cos(angle), np.sin(angle)], 1)[:, : len(plane)] @ plane
-    reach = flat @ way.T
+    direction = np.stack([np.cos(angle), np.sin(angle)], 1)[:, : len(plane)] @ plane
+    reach = flat @ direction.T
     found = np.stack([inside[reach.argmin(0)], inside[reach.argmax(0)]], 1)
     return np.unique(found[found[:, 0] != found[:, 1]], axis=0)
 
 
 def loops(start: Ints, end: Ints) -> Ints:
     """Number the loops that edges (k,) from start to end make, (k,)."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     used, number = np.unique(np.stack([start, end]), return_inverse=True)
     a, b = number.reshape(2, -1)
-    graph: Any = coo_matrix((np.ones(len(a), np.int8), (a, b)), shape=(len(used), len(used)))
-    loop: Ints = connected_components(graph, directed=False)[1][a].astype(np.int64)
-    return loop
+    return connected(len(used), a, b)[1][a]
 
 
 def _rims(V: Floats, F: Ints) -> list[Floats]:

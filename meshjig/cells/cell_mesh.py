@@ -1,11 +1,11 @@
 """What the cells of a surface are, as data."""
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
-from meshjig.mesh.types import Floats, Ints, Mesh
+from meshjig.mesh.refinement import Refinement
+from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["CellMesh", "Seeds"]
+__all__ = ["CellFacts", "CellMesh", "Seeds", "ThinLimb"]
 
 
 @dataclass(frozen=True)
@@ -28,19 +28,29 @@ class Seeds:
 
 
 @dataclass(frozen=True)
-class CellMesh:
-    """A surface whose edges follow the borders of its cells; every cell is one disc.
+class ThinLimb:
+    """A place where cells went around a limb."""
 
-    It is the input mesh refined: the same surface, and the vertices of the input come first.
-    """
+    at: list[float]  # mm
+    pieces: int  # for which cells would be as large as the limb is around
 
-    mesh: Mesh
-    parent: Ints  # (m,), the face of the input mesh that a face lies in
-    vertex_face: Ints  # (n,), a face of the input mesh that a vertex lies in
-    vertex_bary: Floats  # (n, 3), where in that face
+
+@dataclass(frozen=True)
+class CellFacts:
+    """What cells say of themselves, for the report."""
+
+    cells: int
+    halved: int  # that have no seed of their own
+    thin_limbs: list[ThinLimb]
+
+
+@dataclass(frozen=True)
+class CellMesh(Refinement):
+    """A surface whose edges follow the borders of its cells; every cell is one disc."""
+
     cell: Ints  # (m,), 0..N-1
     seeds: Seeds | None = None
-    facts: dict[str, Any] = field(default_factory=dict)  # the report's "cells"
+    facts: CellFacts | None = None
 
     @property
     def n_cells(self) -> int:

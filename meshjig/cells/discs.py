@@ -2,39 +2,35 @@
 
 import numpy as np
 
-from meshjig.mesh.halfedges import Edges
-from meshjig.mesh.types import Ints
+from meshjig.mesh.components import components
+from meshjig.mesh.types import Ints, Mesh
 
 __all__ = ["DISC", "RING", "shapes"]
 
 DISC, RING, OTHER = 1, 0, -99
 
 
-def shapes(F: Ints, cell: Ints, n: int, e: Edges) -> Ints:
+def shapes(mesh: Mesh, cell: Ints, n: int) -> Ints:
     """Tell what shape cells have.
 
     Parameters
     ----------
-    F : (m, 3) int64, manifold
+    mesh : Mesh
     cell : (m,) int64, 0 to n - 1
     n : int
-    e : Edges, of F
 
     Returns
     -------
     (n,) int64, the Euler number: 1 for a disc, 0 for a ring; -99 for a cell that is empty, in parts, or
     touches itself at a vertex
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
+    F, e = mesh.F, mesh.edges
     twin = e.twin
     h = np.arange(len(twin))
     of, corner = np.repeat(cell, 3), F.ravel()
     on_rim = (twin == h) | (of != of[twin])
     a = np.flatnonzero(~on_rim & (twin > h))
-    graph = coo_matrix((np.ones(len(a), np.int8), (a // 3, twin[a] // 3)), shape=(len(F), len(F)))
-    k, part = connected_components(graph, directed=False)
+    k, part = components(F, on_rim, twin)
     of_part = np.empty(k, np.int64)
     of_part[part] = cell
     home = np.full(int(F.max(initial=-1)) + 1, -1)

@@ -1,61 +1,20 @@
-"""Distances along a surface: shortest paths over its edges and over pairs of faces laid flat."""
+"""Distances from many sources at once along a surface, and smooth ones."""
 
 from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.halfedges import Edges, next_halfedge
-from meshjig.mesh.measure import vertex_normals
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.cells.surface import Surface
+from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["far_apart", "nearest", "surface_graph", "turns", "within"]
+__all__ = ["far_apart", "nearest", "smooth_distances", "within"]
 
-_GENTLE = np.radians(8)  # a turn from one vertex to the next that is no crease
 _APART = 3.0  # spacings between the sources of one search
 _REACH = 1.5  # spacings around a source that are searched
-
-
-def surface_graph(V: Floats, F: Ints, e: Edges, bend: float = 0.0) -> Any:
-    """Join vertices by the edges of a mesh and, straight across each edge, the two corners opposite it.
-
-    Shortest paths over this graph are within a few per cent of the geodesic distance.
-
-    Parameters
-    ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
-    e : Edges, of F
-    bend : float, mm
-        What a radian costs that the surface turns by on the way; gentle turns cost nothing.
-
-    Returns
-    -------
-    scipy.sparse.csr_matrix, (n, n), symmetric, mm
-    """
-    from scipy.sparse import csr_matrix
-
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
-    ends = e.E[e.edge_of_halfedge[h]]
-    opposite = np.stack([_opposite(F, h), _opposite(F, e.twin[h])], 1)
-    length, straight = _unfolded(V, ends, opposite)
-    pairs = np.concatenate([e.E, opposite[straight]])
-    far = np.concatenate([np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1), length[straight]])
-    if bend:
-        far = far + bend * turns(V, F, pairs)
-    key = pairs.min(1) * len(V) + pairs.max(1)
-    order = np.lexsort((far, key))
-    first = np.ones(len(key), bool)  # of two ways between the same vertices, the shorter
-    first[1:] = np.diff(key[order]) > 0
-    a, b = pairs[order[first]].T
-    far = np.maximum(far[order[first]], 1e-9)  # an entry of 0 would be no edge
-    return csr_matrix((np.tile(far, 2), (np.r_[a, b], np.r_[b, a])), shape=(len(V), len(V)))
-
-
-def turns(V: Floats, F: Ints, pairs: Ints) -> Floats:
-    """Give by how much the surface turns from one vertex to another, (k,), radians; gentle turns are 0."""
-    N = vertex_normals(V, F)
-    angle = np.arccos(np.clip(np.einsum("ij,ij->i", N[pairs[:, 0]], N[pairs[:, 1]]), -1, 1))
-    return np.maximum(angle - _GENTLE, 0.0)
+_KEPT = 5  # sources of a vertex that are smoothed: those of the cells that can meet there
+_AVERAGED = 0.1  # spacings over which it averages
+_ROUNDS = (2, 12)  # of averaging
+_ACROSS = 1e-3  # the weight of an edge from a crease to beside it
 
 
 def nearest(graph: Any, sources: Ints) -> Ints:
@@ -95,24 +54,6 @@ def within(V: Floats, graph: Any, sources: Ints, spacing: float, kept: int = 6) 
     return _nearest_of(np.concatenate(vertex), np.concatenate(source), np.concatenate(distance), len(V), kept)
 
 
-def _opposite(F: Ints, h: Ints) -> Ints:
-    return F.ravel()[next_halfedge(next_halfedge(h))]
-
-
-def _unfolded(V: Floats, ends: Ints, opposite: Ints) -> tuple[Floats, Bools]:
-    """Lay both faces of edges flat: how far apart their far corners are, and whether the edge is between."""
-    start = V[ends[:, 0]]
-    along = V[ends[:, 1]] - start
-    length = np.maximum(np.linalg.norm(along, axis=1), 1e-300)
-    x, y = np.empty((2, len(ends))), np.empty((2, len(ends)))
-    for k in range(2):
-        p = V[opposite[:, k]] - start
-        x[k] = np.einsum("ij,ij->i", p, along) / length
-        y[k] = np.sqrt(np.maximum(np.einsum("ij,ij->i", p, p) - x[k] ** 2, 0.0))
-    across = x[0] + (x[1] - x[0]) * y[0] / np.maximum(y[0] + y[1], 1e-300)
-    return np.hypot(x[1] - x[0], y[0] + y[1]), (across > 0) & (across < length)
-
-
 def _search(graph: Any, sources: Ints, limit: float) -> tuple[Ints, Floats]:
     from scipy.sparse.csgraph import dijkstra
 
@@ -148,3 +89,51 @@ def _nearest_of(vertex: Ints, source: Ints, distance: Floats, n: int, kept: int)
     sources[vertex[near], rank[near]] = source[near]
     distances[vertex[near], rank[near]] = distance[near]
     return sources, distances
+
+
+def smooth_distances(s: Surface, near: tuple[Ints, Floats], spacing: float) -> tuple[Ints, Floats]:
+    """Average squared distances over a small part of the spacing.
+
+    Shortest paths over edges waver with the triangles. In the plane, the average of a squared distance
+    is the squared distance plus the same amount everywhere, so differences keep their place while the
+    wavering goes.
+
+    Parameters
+    ----------
+    s : Surface
+    near : the sources near each vertex, (n, k), and their distances, mm; nearest first
+    spacing : float, mm
+
+    Returns
+    -------
+    source : (n, 5) int64, -1 where there are fewer
+    distance : (n, 5) float64, mm; infinite there
+    """
+    from scipy.sparse import csr_matrix
+
+    source = near[0][:, :_KEPT]
+    known = source >= 0
+    squared = near[1][:, :_KEPT][known] ** 2
+    rows, columns = np.nonzero(known)[0], source[known]
+    shape = (len(source), int(source.max(initial=0)) + 1)
+    value, mask = (csr_matrix((x, (rows, columns)), shape) for x in (squared, np.ones(len(rows))))
+    average = _averaging(s)
+    edge = float(np.sqrt(4 / np.sqrt(3) * s.area.sum() / len(s.F)))  # of even triangles
+    rounds = int(np.clip(round(2 * (_AVERAGED * spacing / edge) ** 2), *_ROUNDS))
+    weight = (average @ mask).multiply(mask)
+    for _ in range(rounds):
+        value = (average @ value).multiply(mask).multiply(weight.power(-1)).tocsr()
+    distance = np.full(source.shape, np.inf)
+    distance[known] = np.sqrt(np.maximum(np.asarray(value[rows, columns]).ravel(), 0.0))
+    return source, distance
+
+
+def _averaging(s: Surface) -> Any:
+    """Give the matrix that averages a value over neighbours, but not over creases, (n, n)."""
+    from scipy.sparse import diags, identity
+
+    W = s.weight.copy()
+    if s.steep.any():
+        rows = np.repeat(np.arange(W.shape[0]), np.diff(W.indptr))
+        W.data[s.steep[rows] != s.steep[W.indices]] = _ACROSS
+    return ((identity(W.shape[0]) + diags(1 / np.asarray(W.sum(1)).ravel()) @ W) / 2).tocsr()

@@ -1,15 +1,17 @@
 """Jagged borders evened out: lines along mesh edges become smooth ones through faces."""
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from meshjig.cells.march import NEAR, Marched, cut_faces, pinched
-from meshjig.cells.power import Field
+from meshjig.cells.power import PowerField
 from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import Edges, edges
-from meshjig.mesh.measure import face_areas, sums, unit, vertex_normals
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import Edges
+from meshjig.mesh.measure import sums, unit
+from meshjig.mesh.refinement import Refinement, at_corners
+from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
 __all__ = ["Evened", "Line", "even_borders"]
 
@@ -17,7 +19,8 @@ _SWEEPS = 24  # of averaging: it reaches over about five edges
 _FARTHEST = 1.2  # edges that a line may move
 _RINGS = 2  # faces on either side of a line that it may move through
 _ROUNDS = 8
-_NOTHING = Field(np.zeros((1, 1), np.int64), np.zeros((1, 1)))  # never asked: no three cells meet in a face
+# never asked: no three cells meet in a face
+_NOTHING = PowerField(np.zeros((1, 1), np.int64), np.zeros((1, 1)))
 
 
 class Line(NamedTuple):
@@ -28,25 +31,19 @@ class Line(NamedTuple):
     right: int
 
 
-class Evened(NamedTuple):
-    """A mesh whose faces were cut along evened borders; its first vertices are those of the mesh."""
+@dataclass(frozen=True)
+class Evened(Refinement):
+    """A mesh whose faces were cut along evened borders."""
 
-    V: Floats  # (n', 3)
-    F: Ints  # (m', 3)
-    parent: Ints  # (m',), the face that a face was cut from
-    cell: Ints  # (m',)
-    vertex_face: Ints  # (n',), a face that a vertex lies in
-    vertex_bary: Floats  # (n', 3), where in that face
-    e: Edges  # of F
+    cell: Ints  # (m,)
 
 
-def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
-    """Draw stretches of border anew, smoothly, through the faces beside them; all others stay.
+def even_borders(mesh: Mesh, cell: Ints, lines: list[Line]) -> Evened:
+    """Draw stretches of border again, smoothly, through the faces beside them; all others stay.
 
     Parameters
     ----------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
+    mesh : Mesh
     cell : (m,) int64
     lines : list of Line, without a vertex in common but for their ends
 
@@ -54,29 +51,28 @@ def even_borders(V: Floats, F: Ints, cell: Ints, lines: list[Line]) -> Evened:
     -------
     Evened
     """
-    e = edges(F)
+    V, F, e = mesh.V, mesh.F, mesh.edges
     held = np.zeros(len(V), bool)
     for _ in range(_ROUNDS):
-        owner, value, free = _sides(V, F, e, cell, lines, held)
+        owner, value, free = _sides(mesh, cell, lines, held)
         differ, along = _crossings(e, owner, value, free)
-        cut = cut_faces(V, F, e, owner, free, _NOTHING, along)
+        cut = cut_faces(mesh, owner, free, _NOTHING, along)
         whole = free[F[cut.parent]].all(1)
         cut = cut._replace(cell=np.where(whole, cell[cut.parent], cut.cell))
-        bad = np.flatnonzero(_strays(cut) | np.any(pinched(cut)[cut.F], axis=1))
+        bad = np.flatnonzero(_strays(cut) | np.any(pinched(cut)[cut.mesh.F], axis=1))
         if not len(bad):
             break
         held[F[cut.parent[bad]].ravel()] = True
-    face, bary = np.empty(len(cut.V), np.int64), np.zeros((len(cut.V), 3))
-    for k in range(3):
-        face[F[:, k]] = np.arange(len(F))
-    bary[: len(V)] = F[face[: len(V)]] == np.arange(len(V))[:, None]
+    face, bary = at_corners(mesh)
+    face = np.concatenate([face, np.zeros(len(differ), np.int64)])
+    bary = np.concatenate([bary, np.zeros((len(differ), 3))])
     first = np.empty(len(e.E), np.int64)
     first[e.edge_of_halfedge[::-1]] = np.arange(3 * len(F))[::-1]
     h, new = first[differ], len(V) + np.arange(len(differ))
     face[new] = h // 3
     t = np.where(F.ravel()[h] == e.E[differ, 0], along[differ], 1 - along[differ])
     bary[new, h % 3], bary[new, (h + 1) % 3] = 1 - t, t
-    return Evened(cut.V, cut.F, cut.parent, cut.cell, face, bary, cut.e)
+    return Evened(cut.mesh, mesh, cut.parent, face, bary, cut.cell)
 
 
 def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints, Floats]:
@@ -91,8 +87,10 @@ def _crossings(e: Edges, owner: Ints, value: Floats, free: Bools) -> tuple[Ints,
 
 def _strays(cut: Marched) -> Bools:
     """Mark faces that are cut off from the rest of their cell, (m,)."""
-    n, part = components(cut.F, np.repeat(cut.cell, 3) != cut.cell[cut.e.twin // 3], cut.e.twin)
-    size = sums(part, face_areas(cut.V, cut.F), n)
+    n, part = components(
+        cut.mesh.F, np.repeat(cut.cell, 3) != cut.cell[cut.mesh.edges.twin // 3], cut.mesh.edges.twin
+    )
+    size = sums(part, cut.mesh.areas, n)
     cell = np.empty(n, np.int64)
     cell[part] = cut.cell
     order = np.argsort(size, kind="stable")
@@ -102,14 +100,13 @@ def _strays(cut: Marched) -> Bools:
     return out
 
 
-def _sides(
-    V: Floats, F: Ints, e: Edges, cell: Ints, lines: list[Line], held: Bools
-) -> tuple[Ints, Floats, Bools]:
+def _sides(mesh: Mesh, cell: Ints, lines: list[Line], held: Bools) -> tuple[Ints, Floats, Bools]:
     """Tell which cell every vertex belongs to, how far it is from the line there, and which have none.
 
     Lines go through the held vertices (n,) that they went through before, and past all other held ones on
     the same side as before.
     """
+    V, F, e = mesh.V, mesh.F, mesh.edges
     n = len(V)
     twin = e.twin
     h = np.arange(len(twin))
@@ -139,7 +136,7 @@ def _sides(
             reached = (near[p] >= 0) & (near[q] < 0) & (depth[p] == ring - 1)
             near[q[reached]], depth[q[reached]] = near[p[reached]], ring
     owner, value = home.copy(), np.full(n, 1e-3)
-    N = vertex_normals(V, F)
+    N = mesh.vertex_normals
     for i, line in enumerate(lines):
         at = np.flatnonzero((near == i) & ~free)
         own = np.isin(home[at], [line.left, line.right])

@@ -5,14 +5,13 @@ from typing import Literal
 import numpy as np
 
 from meshjig.cells.cell_mesh import CellMesh, Seeds
-from meshjig.cells.extract import Parted
+from meshjig.cells.extract import Extracted
 from meshjig.cells.lloyd import Grown, evened, grown_again, grown_from, settled
-from meshjig.cells.quad import four_sided
-from meshjig.cells.refine import places, refine
-from meshjig.cells.sample_seeds import plant
+from meshjig.cells.sample_seeds import four_sided, sample_seeds
 from meshjig.cells.surface import Surface, surface
 from meshjig.errors import CutError, OptionError
-from meshjig.mesh.measure import face_areas
+from meshjig.mesh.refinement import places
+from meshjig.mesh.subdivide import refine
 from meshjig.mesh.types import Floats, Ints, Mesh
 
 __all__ = ["Style", "grow_cells"]
@@ -20,7 +19,7 @@ __all__ = ["Style", "grow_cells"]
 Style = Literal["cvt", "quad"]
 
 _EDGE = 0.2  # of the spacing: edges longer than that are split
-_BEND = 0.5  # spacings: what a radian of a crease adds to a way across it
+_BEND = 0.5  # spacings: what a radian of a crease adds to a path across it
 _OFF = 0.02  # of the number of cells wanted: farther off than that, it is worth another try
 _SMALLEST = 0.5  # of the mean area; so is a cell smaller than that
 _TRIES = 3
@@ -75,20 +74,20 @@ def grow_cells(
         raise OptionError(f"pieces: {n} is too few", hint="ask for at least 1")
     if targets is not None and (start is None or len(targets) != start.n_cells):
         raise OptionError("targets: there must be one for every cell of start", hint="give both")
-    spacing = float(np.sqrt(face_areas(mesh.V, mesh.F).sum() / n))
-    V, F, parent = refine(mesh.V, mesh.F, _EDGE * spacing)
-    s = surface(V, F, _BEND * spacing if crease_aware else 0.0)
+    spacing = float(np.sqrt(mesh.areas.sum() / n))
+    fine, parent = refine(mesh, _EDGE * spacing, shorter=False)
+    s = surface(fine, _BEND * spacing if crease_aware else 0.0)
     if start is not None:
         grown = grown_again(s, start, spacing, targets)
     elif style == "quad":
         grown = evened(s, grown_from(s, _on_all_components(s, four_sided(s, n), n, seed), spacing), spacing)
     else:
         grown = _of_about(s, n, spacing, seed)
-    _refuse_what_is_no_disc(grown.parted)
-    cut = grown.parted.cut
+    _refuse_what_is_no_disc(grown.extracted)
+    cut = grown.extracted.cut
     parent = parent[cut.parent]
-    face, bary = places(mesh.V, mesh.F, cut.V, cut.F, parent)
-    return CellMesh(Mesh(cut.V, cut.F), parent, face, bary, cut.cell, grown.seeds, grown.facts(s))
+    made = Mesh(*cut.mesh)  # without what was kept of it
+    return CellMesh(made, mesh, parent, *places(mesh, made, parent), cut.cell, grown.seeds, grown.facts(s))
 
 
 def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:
@@ -96,33 +95,33 @@ def _of_about(s: Surface, n: int, spacing: float, seed: int) -> Grown:
     tried: list[Grown] = []
     wanted = n
     for turn in range(_TRIES):
-        seeds = settled(s, plant(s, wanted, seed + turn), spacing)
+        seeds = settled(s, sample_seeds(s, wanted, seed + turn), spacing)
         grown = evened(s, grown_from(s, seeds, spacing), spacing)
         tried.append(grown)
-        well = abs(grown.parted.n - n) <= _OFF * n and grown.areas.min() >= _SMALLEST
-        if well or len(grown.parted.pairs) > _MANY * n:
+        well = abs(grown.extracted.n - n) <= _OFF * n and grown.areas.min() >= _SMALLEST
+        if well or len(grown.extracted.pairs) > _MANY * n:
             break
         if turn == _TRIES - 2:  # another draw does not help: so many fewer seeds
-            wanted = max(n - min(abs(g.parted.n - n) for g in tried), 1)
-    return min(tried, key=lambda g: (g.n_bad, max(abs(g.parted.n - n) - _OFF * n, 0.0), -g.areas.min()))
+            wanted = max(n - min(abs(g.extracted.n - n) for g in tried), 1)
+    return min(tried, key=lambda g: (g.n_bad, max(abs(g.extracted.n - n) - _OFF * n, 0.0), -g.areas.min()))
 
 
 def _on_all_components(s: Surface, seeds: Ints, n: int, seed: int) -> Ints:
     """Put seeds that are spread evenly on components with too few or too many."""
-    count, spread = np.bincount(s.component[seeds], minlength=len(s.closed)), plant(s, n, seed)
+    count, spread = np.bincount(s.component[seeds], minlength=len(s.closed)), sample_seeds(s, n, seed)
     share = np.bincount(s.component[spread], minlength=len(s.closed))
     off = np.abs(count - share) > _UNEVEN * share
     return np.union1d(seeds[~off[s.component[seeds]]], spread[off[s.component[spread]]])
 
 
-def _refuse_what_is_no_disc(parted: Parted) -> None:
-    bad = np.flatnonzero(~parted.good)
+def _refuse_what_is_no_disc(extracted: Extracted) -> None:
+    bad = np.flatnonzero(~extracted.good)
     if not len(bad):
         return
-    used = np.unique(parted.cut.F[parted.cut.cell == bad[0]])
-    where = ", ".join(f"{x:.0f}" for x in parted.cut.V[used].mean(0)) if len(used) else "nowhere"
+    used = np.unique(extracted.cut.mesh.F[extracted.cut.cell == bad[0]])
+    where = ", ".join(f"{x:.0f}" for x in extracted.cut.mesh.V[used].mean(0)) if len(used) else "nowhere"
     raise CutError(
-        f"{len(bad)} of {parted.n} pieces would be rings or worse, the first around ({where})",
+        f"{len(bad)} of {extracted.n} pieces would be rings or worse, the first around ({where})",
         hint="ask for more pieces",
         ids=bad.tolist(),
     )

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cells.cell_mesh import Seeds
-from meshjig.cells.distances import within
-from meshjig.cells.extract import Parted, part
+from meshjig.cells.cell_mesh import CellFacts, Seeds, ThinLimb
+from meshjig.cells.distances import smooth_distances, within
+from meshjig.cells.extract import Extracted, extract
 from meshjig.cells.power import balance
 from meshjig.cells.repair_topology import Pair
 from meshjig.cells.sample_seeds import centred
-from meshjig.cells.smooth_distances import softened
 from meshjig.cells.surface import Surface
-from meshjig.mesh.measure import face_areas, sums
+from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Grown", "evened", "grown_again", "grown_from", "settled"]
@@ -28,33 +27,30 @@ _ROUNDS = 3
 class Grown(NamedTuple):
     """Cells, and the seeds to grow them from again."""
 
-    parted: Parted
+    extracted: Extracted
     seeds: Seeds
 
     @property
     def areas(self) -> Floats:
         """Give the areas of cells over their mean, (N,)."""
-        cut = self.parted.cut
-        area = sums(cut.cell, face_areas(cut.V, cut.F), self.parted.n)
+        cut = self.extracted.cut
+        area = sums(cut.cell, cut.mesh.areas, self.extracted.n)
         return area / area.mean()
 
     @property
     def n_bad(self) -> int:
         """Count the cells that are no discs."""
-        return int((~self.parted.good).sum())
+        return int((~self.extracted.good).sum())
 
-    def facts(self, s: Surface) -> dict[str, Any]:
+    def facts(self, s: Surface) -> CellFacts:
         """Say how many cells there are, and where limbs are thin, with the number that fits them."""
         around = np.pi * np.linalg.norm(self.seeds.poles[:, 0] - self.seeds.poles[:, 1], axis=1)
         cure = np.ceil(s.area.sum() / np.maximum(0.9 * around, 1e-9) ** 2)
-        return {
-            "cells": self.parted.n,
-            "halved": self.parted.n - len(self.seeds.points),
-            "thin_limbs": [
-                {"at": [round(float(x), 1) for x in at], "pieces": int(pieces)}
-                for at, pieces in zip(self.seeds.poles.mean(1), cure, strict=True)
-            ],
-        }
+        limbs = [
+            ThinLimb([round(float(x), 1) for x in at], int(pieces))
+            for at, pieces in zip(self.seeds.poles.mean(1), cure, strict=True)
+        ]
+        return CellFacts(self.extracted.n, self.extracted.n - len(self.seeds.points), limbs)
 
 
 def settled(s: Surface, seeds: Ints, spacing: float) -> Ints:
@@ -95,13 +91,13 @@ def grown_from(
     for pair in reversed(pairs):
         if pair.second >= n:  # a half that has no seed of its own
             area[pair.first] += area[pair.second]
-    near = softened(s, within(s.V, s.graph, seeds, spacing), spacing)
+    near = smooth_distances(s, within(s.V, s.graph, seeds, spacing), spacing)
     start = np.zeros(n) if weights is None else weights
     weights, field = balance(near, s.V[seeds], s.area, s.targets(seeds, area[:n]), start)
-    parted = part(s, field, n, pairs, relative, spacing)
-    cells = np.array([pair[:2] for pair in parted.pairs], np.int64).reshape(-1, 2)
-    poles = np.array([pair.poles for pair in parted.pairs], np.int64).reshape(-1, 2)
-    return Grown(parted, Seeds(s.V[seeds], weights, cells, s.V[poles]))
+    extracted = extract(s, field, n, pairs, relative, spacing)
+    cells = np.array([pair[:2] for pair in extracted.pairs], np.int64).reshape(-1, 2)
+    poles = np.array([pair.poles for pair in extracted.pairs], np.int64).reshape(-1, 2)
+    return Grown(extracted, Seeds(s.V[seeds], weights, cells, s.V[poles]))
 
 
 def grown_again(s: Surface, start: Seeds, spacing: float, relative: Floats | None) -> Grown:
@@ -117,13 +113,13 @@ def grown_again(s: Surface, start: Seeds, spacing: float, relative: Floats | Non
 
 def evened(s: Surface, grown: Grown, spacing: float) -> Grown:
     """Grow again where cells that were joined and cut another way came out uneven."""
-    best, relative = grown, np.ones(grown.parted.n)
+    best, relative = grown, np.ones(grown.extracted.n)
     for _ in range(_ROUNDS):
-        few = 0 < len(grown.parted.pairs) <= _MANY * grown.parted.n
+        few = 0 < len(grown.extracted.pairs) <= _MANY * grown.extracted.n
         if not few or grown.n_bad or best.areas.std() < _EVEN:
             break
-        relative = np.append(relative, np.ones(grown.parted.n - len(relative)))
+        relative = np.append(relative, np.ones(grown.extracted.n - len(relative)))
         relative = relative * np.clip(grown.areas, 0.5, 2.0) ** -_GAIN
         grown = grown_again(s, grown.seeds, spacing, relative)
-        best = min(best, grown, key=lambda g: (g.n_bad, g.parted.n, g.areas.std()))
+        best = min(best, grown, key=lambda g: (g.n_bad, g.extracted.n, g.areas.std()))
     return best

@@ -4,31 +4,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cells.power import Field
-from meshjig.cells.straighten import straightened
+from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
-from meshjig.mesh.halfedges import Edges, edges
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.arrays import starts
+from meshjig.mesh.halfedges import Edges
+from meshjig.mesh.types import Bools, Floats, Ints, Mesh
 
-__all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched"]
+__all__ = ["NEAR", "Marched", "cut_faces", "march", "pinched", "straighten"]
 
 NEAR = 0.06  # of an edge: a border that passes a vertex closer than this goes through it
 _STEEP = 0.7  # the same for a vertex on a crease that borders should follow
 _INSIDE = 0.15  # the least barycentric coordinate of a point where three cells meet
 _ROUNDS = 8
+_SLIDES = 12
 
 
 class Marched(NamedTuple):
     """A mesh cut along the borders of cells; its first vertices are those of the mesh."""
 
-    V: Floats  # (n', 3)
-    F: Ints  # (m', 3)
+    mesh: Mesh
     parent: Ints  # (m',), the face that a face was cut from
     cell: Ints  # (m',)
-    e: Edges  # of F
 
 
-def march(s: Surface, owner: Ints, field: Field) -> Marched:
+def march(s: Surface, owner: Ints, field: PowerField) -> Marched:
     """Cut faces where the values of two cells are equal, between vertices that the cells own.
 
     Two cells meet along a straight line in a face, three at a point. Where the line would pass close to
@@ -38,17 +37,17 @@ def march(s: Surface, owner: Ints, field: Field) -> Marched:
     ----------
     s : Surface
     owner : (n,) int64
-    field : Field
+    field : PowerField
 
     Returns
     -------
     Marched
     """
-    V, F, e = s.V, s.F, s.e
+    (V, F), e = s.mesh, s.e
     crossing, along = _crossings(e, owner, field)
     free = _snapped(F, e, np.where(s.steep, _STEEP, NEAR), crossing, along)
     for _ in range(_ROUNDS):
-        cut = cut_faces(V, F, e, owner, free, field, along)
+        cut = cut_faces(s.mesh, owner, free, field, along)
         bad = np.flatnonzero(pinched(cut)[: len(V)] & free)
         if not len(bad):
             break
@@ -56,10 +55,10 @@ def march(s: Surface, owner: Ints, field: Field) -> Marched:
     a, b = e.E.T
     ends = e.E[~free[a] & ~free[b] & (owner[a] != owner[b])]
     point = len(V) + np.arange(len(ends))
-    return cut._replace(V=straightened(cut.V, cut.e, cut.cell, point, ends, NEAR))
+    return cut._replace(mesh=straighten(cut.mesh, cut.cell, point, ends, NEAR))
 
 
-def _crossings(e: Edges, owner: Ints, field: Field) -> tuple[Ints, Floats]:
+def _crossings(e: Edges, owner: Ints, field: PowerField) -> tuple[Ints, Floats]:
     """Give the edges whose ends belong to different cells, and where along every edge (0 to 1) it crosses."""
     crossing = np.flatnonzero(owner[e.E[:, 0]] != owner[e.E[:, 1]])
     u, v = e.E[crossing].T
@@ -88,8 +87,9 @@ def _snapped(F: Ints, e: Edges, near: Floats, crossing: Ints, along: Floats) -> 
     return free
 
 
-def cut_faces(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Field, along: Floats) -> Marched:
+def cut_faces(mesh: Mesh, owner: Ints, free: Bools, field: PowerField, along: Floats) -> Marched:
     """Split every face by the labels of its corners; free corners have none."""
+    (V, F), e = mesh, mesh.edges
     a, b = e.E.T
     crossed = ~free[a] & ~free[b] & (owner[a] != owner[b])
     point = np.full(len(e.E), -1)
@@ -126,7 +126,7 @@ def cut_faces(V: Floats, F: Ints, e: Edges, owner: Ints, free: Bools, field: Fie
         add(three, owner[corner], corner, after, centre)
         add(three, owner[corner], corner, centre, before)
     G = np.concatenate(faces)
-    return Marched(V, G, np.concatenate(parents), np.concatenate(labels), edges(G))
+    return Marched(Mesh(V, G), np.concatenate(parents), np.concatenate(labels))
 
 
 def _label_of(owner: Ints, free: Bools) -> Ints:
@@ -140,7 +140,7 @@ def _turned(F: Ints, middle: Ints, first: Ints) -> tuple[Ints, Ints]:
     return np.take_along_axis(F, turn, 1).T, np.take_along_axis(middle, turn, 1).T
 
 
-def _meeting(field: Field, F: Ints, owner: Ints) -> Floats:
+def _meeting(field: PowerField, F: Ints, owner: Ints) -> Floats:
     """Give the place in a face where the three cells of its corners have equal values, (k, 3)."""
     value = np.stack([np.stack([field.at(F[:, c], owner[:, k]) for c in range(3)], 1) for k in range(3)], 1)
     known = np.isfinite(value).all((1, 2))
@@ -157,10 +157,50 @@ def _meeting(field: Field, F: Ints, owner: Ints) -> Floats:
 
 def pinched(cut: Marched) -> Bools:
     """Mark vertices at which the faces of one cell meet in more than one fan, (n,)."""
-    twin, n = cut.e.twin, int(cut.cell.max(initial=0)) + 1
+    twin, n = cut.mesh.edges.twin, int(cut.cell.max(initial=0)) + 1
     h = np.arange(len(twin))
     border = np.flatnonzero((twin == h) | (cut.cell[h // 3] != cut.cell[twin // 3]))
-    found, count = np.unique(cut.F.ravel()[border] * np.int64(n) + cut.cell[border // 3], return_counts=True)
-    out = np.zeros(len(cut.V), bool)
+    found, count = np.unique(
+        cut.mesh.F.ravel()[border] * np.int64(n) + cut.cell[border // 3], return_counts=True
+    )
+    out = np.zeros(len(cut.mesh.V), bool)
     out[found[count > 1] // n] = True
     return out
+
+
+def straighten(mesh: Mesh, cell: Ints, point: Ints, ends: Ints, near: float) -> Mesh:
+    """Slide points of borders along the edges that they lie on, each towards the line between its neighbours.
+
+    Parameters
+    ----------
+    mesh : Mesh, whose edges follow borders
+    cell : (m,) int64, of each face
+    point : (k,) int64, vertices that lie on an edge
+    ends : (k, 2) int64, vertices at the ends of that edge
+    near : float, 0 to 0.5, of an edge: points stay that far from its ends
+
+    Returns
+    -------
+    Mesh
+    """
+    V, e = mesh.V, mesh.edges
+    h = mesh.inner_halfedges
+    border = h[cell[h // 3] != cell[e.twin[h] // 3]]
+    E = e.E[e.edge_of_halfedge[border]]
+    both = np.concatenate([E, E[:, ::-1]])
+    both = both[np.argsort(both[:, 0], kind="stable")]
+    degree = np.bincount(both[:, 0], minlength=len(V))
+    start = starts(degree)
+    moving = degree[point] == 2
+    point, ends = point[moving], ends[moving]
+    p, q = both[start[point], 1], both[start[point] + 1, 1]
+    a, d = V[ends[:, 0]], V[ends[:, 1]] - V[ends[:, 0]]
+    squared = np.maximum(np.einsum("ij,ij->i", d, d), 1e-300)
+    W = V.copy()
+    for _ in range(_SLIDES):
+        x = W[point]
+        lp, lq = np.linalg.norm(W[p] - x, axis=1), np.linalg.norm(W[q] - x, axis=1)
+        m = (W[p] * lq[:, None] + W[q] * lp[:, None]) / np.maximum(lp + lq, 1e-300)[:, None]
+        t = np.clip(np.einsum("ij,ij->i", (m + x) / 2 - a, d) / squared, near, 1 - near)
+        W[point] = a + t[:, None] * d
+    return mesh.moved(W)

@@ -7,12 +7,14 @@ import numpy as np
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["Field", "balance"]
+__all__ = ["PowerField", "balance"]
 
 _STEP = 0.35  # of the squared spacing: the largest change of a weight at once
+_ROUNDS = 12
+_CLOSE = 0.004  # standard deviation of area over target at which it is well
 
 
-class Field(NamedTuple):
+class PowerField(NamedTuple):
     """For every vertex the seeds near it, and squared distance less weight for each of them."""
 
     seed: Ints  # (n, k), -1 where there are fewer
@@ -36,9 +38,7 @@ def balance(
     area: Floats,
     target: Floats,
     weights: Floats,
-    rounds: int = 12,
-    close: float = 0.004,
-) -> tuple[Floats, Field]:
+) -> tuple[Floats, PowerField]:
     """Find weights that give the power cells of seeds the areas asked for.
 
     Newton's method: along the border of two cells, area moves from one to the other in proportion to
@@ -52,13 +52,11 @@ def balance(
     area : (n,) float64, mm2, of each vertex
     target : (N,) float64, mm2
     weights : (N,) float64, mm2, the start
-    rounds : int
-    close : float, standard deviation of area over target at which it is well
 
     Returns
     -------
     weights : (N,) float64, mm2
-    field : Field
+    field : PowerField
 
     References
     ----------
@@ -68,7 +66,7 @@ def balance(
     squared = distance**2
     size = float(target.mean())
     best, best_spread, step, share = weights, np.inf, np.zeros(len(target)), 1.0
-    for _ in range(rounds):
+    for _ in range(_ROUNDS):
         found, slope = _areas(seed, squared - np.append(weights, 0.0)[seed], points, area, size)
         spread = float((found / target - 1).std())
         if spread < best_spread:
@@ -76,11 +74,11 @@ def balance(
             step = _solve(slope, target - found)
         else:
             share /= 4
-        if best_spread < close:
+        if best_spread < _CLOSE:
             break
         weights = best + np.clip(share * step, -_STEP * size, _STEP * size)
         weights = weights - weights.mean()
-    return best, Field(seed, squared - np.append(best, 0.0)[seed])
+    return best, PowerField(seed, squared - np.append(best, 0.0)[seed])
 
 
 def _areas(seed: Ints, value: Floats, points: Floats, area: Floats, size: float) -> tuple[Floats, Any]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.cells.bisect import loops, poles_of, side_of
 from meshjig.cells.march import Marched
-from meshjig.cells.power import Field
+from meshjig.cells.power import PowerField
 from meshjig.cells.surface import Surface
 from meshjig.mesh.halfedges import next_halfedge
 from meshjig.mesh.measure import sums
@@ -83,7 +83,9 @@ def split_up(s: Surface, cut: Marched, owner: Ints, bad: Bools) -> list[Pair]:
     return out
 
 
-def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, spacing: float) -> Field:
+def cut_in_pairs(
+    s: Surface, field: PowerField, pairs: list[Pair], relative: Floats, spacing: float
+) -> PowerField:
     """Change values so that each pair of cells is parted along a line between its poles.
 
     Where their union ends stays as it was.
@@ -91,14 +93,14 @@ def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, 
     Parameters
     ----------
     s : Surface
-    field : Field
+    field : PowerField
     pairs : list of Pair; a later one may halve what an earlier one made
     relative : (N,) float64, areas of cells relative to one another
     spacing : float, mm
 
     Returns
     -------
-    Field
+    PowerField
     """
     seed, value = field.seed.copy(), field.value.copy()
     for pair in pairs:
@@ -119,14 +121,14 @@ def cut_in_pairs(s: Surface, field: Field, pairs: list[Pair], relative: Floats, 
         last = rest.argmax(1)
         seed[near, first], seed[near, last] = pair.first, pair.second
         value[near, first], value[near, last] = both + np.maximum(-side, 0), both + np.maximum(side, 0)
-    return Field(seed, value)
+    return PowerField(seed, value)
 
 
 def _even_poles(
     s: Surface, cut: Marched, owner: Ints, cell: int, region: Ints, rank: int
 ) -> tuple[int, int] | None:
     """Choose poles on a cell so that a region is halved; of rank 1 another way than of rank 0."""
-    poles = poles_of(s.V, np.flatnonzero(owner == cell), cut.F[cut.cell == cell], cut.V)
+    poles = poles_of(s.V, np.flatnonzero(owner == cell), cut.mesh.F[cut.cell == cell], cut.mesh.V)
     if not len(poles):
         return None
     sides = [side_of(s, region, (p, q)) for p, q in poles.tolist()]
@@ -157,13 +159,13 @@ def _parted(s: Surface, region: Ints, poles: tuple[int, int], share: float) -> F
 
 def _contacts(cut: Marched, cell: int) -> list[_Contact]:
     """List the neighbours of a cell along each of its rims."""
-    twin = cut.e.twin
+    twin = cut.mesh.edges.twin
     mine = np.flatnonzero(cut.cell == cell)[:, None] * 3 + np.arange(3)
     mine = mine.ravel()
     h = mine[(twin[mine] == mine) | (cut.cell[twin[mine] // 3] != cell)]
     other = np.where(twin[h] == h, -1, cut.cell[twin[h] // 3])
-    start, end = cut.F.ravel()[h], cut.F.ravel()[next_halfedge(h)]
-    length = np.linalg.norm(cut.V[start] - cut.V[end], axis=1)
+    start, end = cut.mesh.F.ravel()[h], cut.mesh.F.ravel()[next_halfedge(h)]
+    length = np.linalg.norm(cut.mesh.V[start] - cut.mesh.V[end], axis=1)
     rim = loops(start, end)
     around = sums(rim, length, int(rim.max(initial=-1)) + 1)
     found, stretch = np.unique(np.stack([rim, other], 1), axis=0, return_inverse=True)

@@ -1,26 +1,59 @@
 """Cut a mesh into flat charts: the stage as a whole."""
 
+from __future__ import annotations
+
 import logging
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
 
-from meshjig.charts.arrange import lay_out
-from meshjig.charts.atlas_distortion import quality, seam_over_sqrt_area
-from meshjig.charts.auto import GATE, chart_component
-from meshjig.charts.chart import Chart, Charting
-from meshjig.charts.mapped import MappedAtlas
-from meshjig.charts.regularize import steady
-from meshjig.charts.segment.segment import WORTH_A_CHILD, get_ready
-from meshjig.charts.unwrap import chart_options
+from meshjig.charts.atlas_distortion import AtlasDistortion, atlas_distortion, seam_over_sqrt_area
+from meshjig.charts.auto import GATE, ChartOptions, chart_component
+from meshjig.charts.chart import Chart, Charting, lay_out
+from meshjig.charts.cuts import TrimmingCurve, trimming_curves
+from meshjig.charts.lift import curve, lift
+from meshjig.charts.regularize import regularize
+from meshjig.charts.segment.segment import WORTH_A_CHILD, chart_options, get_ready
 from meshjig.errors import ChartError, OptionError
-from meshjig.mesh.halfedges import compact, edges
-from meshjig.mesh.types import Atlas, Floats, Ints, Mesh
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.halfedges import compact
+from meshjig.mesh.types import Atlas, Mesh
 from meshjig.runtime.worker import Background
 
-__all__ = ["AtlasMethod", "build_atlas"]
+__all__ = ["AtlasMethod", "ChartFacts", "MappedAtlas", "build_atlas"]
+
+
+@dataclass(frozen=True)
+class MappedAtlas(Atlas):
+    """An atlas with the point-wise map of its charts."""
+
+    def lift(self, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
+        """Map points of the plane to the surface, as `meshjig.charts.lift` does."""
+        return lift(self, chart, uv)
+
+    def curve(self, chart: int, polyline: Floats) -> list[Floats]:
+        """Map a polyline of the plane to the surface, as `meshjig.charts.curve` does."""
+        return curve(self, chart, polyline)
+
+    def trimming_curves(self) -> list[TrimmingCurve]:
+        """The charts' borders with their mates, as `meshjig.charts.trimming_curves` does."""
+        return trimming_curves(self)
+
 
 AtlasMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"]
+
+
+@dataclass(frozen=True)
+class ChartFacts(AtlasDistortion):
+    """How good the charts of an atlas are, and how they came about: the report's "charts"."""
+
+    method: str  # those of all components, joined by +
+    n_charts_before_zip: int
+    seam_before_zip: float  # as seam_over_sqrt_area
+    zipped: int  # seams that were glued
+    reason: str = ""  # a sentence
 
 
 def build_atlas(
@@ -30,7 +63,7 @@ def build_atlas(
     seed: int = 0,
     margin: float = 5.0,
     zipped: bool = True,
-    xatlas_options: dict[str, Any] | None = None,
+    xatlas_options: Mapping[str, object] | None = None,
     source: Any = None,
     to_source: Floats | None = None,
     log: logging.Logger | None = None,
@@ -58,8 +91,7 @@ def build_atlas(
     -------
     MappedAtlas
         Every chart is a disc, cut inside or not, or a ring cut open; no face is mirrored, and the mean
-        stretch of each chart is 1. Its facts are those of quality(), and method, reason (a sentence),
-        n_charts_before_zip, seam_before_zip (as seam_over_sqrt_area) and zipped (seams that were glued).
+        stretch of each chart is 1. Its facts are the fields of ChartFacts.
 
     Raises
     ------
@@ -75,52 +107,31 @@ def build_atlas(
     if method == "uv" and source is None:
         raise OptionError("charts: uv needs the mesh as it was loaded", hint="give it as source")
     chart_options(xatlas_options or {})
-    e = edges(mesh.F)
-    if not len(mesh.F) or e.n_faces.max() > 2:
+    if not len(mesh.F) or mesh.edges.n_faces.max() > 2:
         raise ChartError("the mesh is empty or not manifold", hint="repair it first")
-    V = mesh.V
+    smooth = mesh
     parts: list[tuple[Ints, Charting]] = []  # faces, and how they were charted
     if method == "uv":
-        from meshjig.charts.file_uv.file_uv import own_uv
+        from meshjig.charts.file_uv import file_uv
 
-        brought = own_uv(mesh, source, np.eye(4) if to_source is None else to_source)
+        brought = file_uv(mesh, source, np.eye(4) if to_source is None else to_source)
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
     else:
         searches = method in ("auto", "lscm", "arap", "slim") and len(mesh.F) >= WORTH_A_CHILD
         ready = Background(get_ready) if searches else None
-        V = steady(mesh.V, mesh.F, seed, e)
-        n, component = _components(e.twin)
-        for c in range(n):
-            faces = np.flatnonzero(component == c)
+        smooth = regularize(mesh, seed)
+        options = ChartOptions(method, seed, zipped, xatlas_options)
+        for c in range(mesh.n_components):
+            faces = np.flatnonzero(mesh.component_of_face == c)
             F, kept = compact(mesh.F[faces])
-            known = e if len(faces) == len(mesh.F) and len(kept) == len(V) else None
-            made = chart_component(
-                V[kept],
-                F,
-                method,
-                seed=seed,
-                zipped=zipped,
-                xatlas_options=xatlas_options,
-                e=known,
-                ready=ready,
-            )
-            parts.append((faces, made))
+            whole = len(faces) == len(mesh.F) and len(kept) == len(mesh.V)
+            part = smooth if whole else Mesh(smooth.V[kept], F)
+            parts.append((faces, chart_component(part, options, ready)))
     atlas = lay_out(mesh, [_shifted(chart, faces) for faces, made in parts for chart in made.charts], margin)
-    facts = _facts(atlas, parts, V, e.twin)
+    facts = _facts(atlas, parts, smooth.V)
     if log is not None:
-        log.info("charts: %s", facts["reason"])
-    return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, facts, atlas.period)
-
-
-def _components(twin: Ints) -> tuple[int, Ints]:
-    """Number the faces (m,) that hang together, by the twins of their half-edges."""
-    from scipy.sparse import csr_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    m = len(twin) // 3
-    around = csr_matrix((np.ones(3 * m, np.int8), twin // 3, np.arange(0, 3 * m + 1, 3)), shape=(m, m))
-    n, part = connected_components(around, directed=False)
-    return int(n), part.astype(np.int64)
+        log.info("charts: %s", facts.reason)
+    return MappedAtlas(mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, asdict(facts), atlas.period)
 
 
 def _shifted(chart: Chart, faces: Ints) -> Chart:
@@ -128,30 +139,30 @@ def _shifted(chart: Chart, faces: Ints) -> Chart:
     return Chart(faces[chart.faces], chart.uv, chart.corners, chart.period)
 
 
-def _facts(atlas: Atlas, parts: list[tuple[Ints, Charting]], smoothed: Floats, twin: Ints) -> dict[str, Any]:
+def _facts(atlas: Atlas, parts: list[tuple[Ints, Charting]], smoothed: Floats) -> ChartFacts:
     """Measure an atlas, and say how it came about."""
-    F, facts = atlas.mesh.F, quality(atlas, smoothed, twin)
+    found = atlas_distortion(atlas, smoothed)
     before = atlas.chart_of_face.copy()
     for faces, made in parts:
-        if made.leaf is not None:
-            before[faces] = made.leaf + before.max() + 1
+        if made.region is not None:
+            before[faces] = made.region + before.max() + 1
     n_before = int((np.bincount(before) > 0).sum())
-    seam = np.repeat(before, 3) != np.repeat(before, 3)[twin]
+    seam = np.repeat(before, 3) != np.repeat(before, 3)[atlas.mesh.edges.twin]
     largest_first = sorted(parts, key=lambda part: -len(part[0]))
-    facts["method"] = "+".join(dict.fromkeys(made.method for _, made in largest_first))
-    facts["n_charts_before_zip"] = n_before
-    facts["seam_before_zip"] = seam_over_sqrt_area(atlas.mesh.V, F, seam, twin)
-    facts["zipped"] = max(n_before - facts["n_charts"], 0)
-    facts["reason"] = _reason(facts, [made.note for _, made in largest_first])
-    return facts
-
-
-def _reason(facts: dict[str, Any], notes: list[str]) -> str:
-    """Say in one sentence what was taken, how good it is, and what was not taken."""
-    n, share = facts["n_charts"], facts["gate_share"]
-    glued = f" glued from {facts['n_charts_before_zip']}" if facts["zipped"] else ""
-    short = "" if share >= GATE else f", short of {GATE:.0%}"
-    said = (
-        f"{facts['method']}: {n} chart{'s' * (n > 1)}{glued}, {share:.1%} of the area within the gate{short}"
+    facts = ChartFacts(
+        **{field.name: getattr(found, field.name) for field in fields(found)},
+        method="+".join(dict.fromkeys(made.method for _, made in largest_first)),
+        n_charts_before_zip=n_before,
+        seam_before_zip=seam_over_sqrt_area(atlas.mesh, seam),
+        zipped=max(n_before - found.n_charts, 0),
     )
+    return replace(facts, reason=_reason(facts, [made.note for _, made in largest_first]))
+
+
+def _reason(facts: ChartFacts, notes: list[str]) -> str:
+    """Say in one sentence what was taken, how good it is, and what was not taken."""
+    n, share = facts.n_charts, facts.gate_share
+    glued = f" glued from {facts.n_charts_before_zip}" if facts.zipped else ""
+    short = "" if share >= GATE else f", short of {GATE:.0%}"
+    said = f"{facts.method}: {n} chart{'s' * (n > 1)}{glued}, {share:.1%} of the area within the gate{short}"
     return "; ".join(dict.fromkeys([said, *filter(None, notes)]))

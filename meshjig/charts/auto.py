@@ -1,27 +1,23 @@
 """The method for a component: the one that was asked for, or the best by measured gates."""
 
-from typing import Any, Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
 
-import numpy as np
-
-from meshjig.charts.arrange import lay_out
-from meshjig.charts.atlas_distortion import quality
-from meshjig.charts.chart import Chart, Charting
-from meshjig.charts.denoise import smoothed
+from meshjig.charts.atlas_distortion import AtlasDistortion, atlas_distortion
+from meshjig.charts.chart import Chart, Charting, lay_out
 from meshjig.charts.flatten.flatten import Method
-from meshjig.charts.segment.segment import segment
-from meshjig.charts.segmented import own_charts
-from meshjig.charts.single import single_chart
-from meshjig.charts.transfer.proxy import coarsened, proxy
-from meshjig.charts.transfer.transfer_charts import carry_over
-from meshjig.charts.unwrap import unwrap
+from meshjig.charts.regularize import smoothed
+from meshjig.charts.segment.segment import segment, unwrap
+from meshjig.charts.segmented import own_charts, single_chart
+from meshjig.charts.transfer.proxy import coarsened, proxy_mesh
+from meshjig.charts.transfer.transfer_charts import transfer_charts
 from meshjig.charts.zip.zip import zip_charts
 from meshjig.errors import ChartError
-from meshjig.mesh.halfedges import Edges, edges
-from meshjig.mesh.types import Floats, Ints, Mesh
+from meshjig.mesh.mesh import Mesh
 from meshjig.runtime.worker import Background
 
-__all__ = ["GATE", "ComponentMethod", "chart_component"]
+__all__ = ["GATE", "ChartOptions", "ComponentMethod", "chart_component"]
 
 ComponentMethod = Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic"]
 
@@ -32,17 +28,17 @@ _PASSES = 1  # that take away what noise coarsening leaves
 _FEW_SEAMS = 3.5  # length over the root of the area: our segmentation hardly ever needs less
 
 
-def chart_component(
-    V: Floats,
-    F: Ints,
-    method: ComponentMethod,
-    *,
-    seed: int = 0,
-    zipped: bool = True,
-    xatlas_options: dict[str, Any] | None = None,
-    e: Edges | None = None,
-    ready: Background | None = None,
-) -> Charting:
+@dataclass(frozen=True)
+class ChartOptions:
+    """How components are cut into charts."""
+
+    method: ComponentMethod = "auto"
+    seed: int = 0
+    zipped: bool = True  # glue the charts of our own segmentation
+    xatlas: Mapping[str, object] | None = None  # fields of xatlas.ChartOptions
+
+
+def chart_component(mesh: Mesh, options: ChartOptions, ready: Background | None = None) -> Charting:
     """Cut one component into charts.
 
     "auto" takes the charts with the shortest seams among those that pass the gates: no mirrored
@@ -52,12 +48,8 @@ def chart_component(
 
     Parameters
     ----------
-    V, F : (n, 3) float64, mm, and (m, 3) int64, manifold, one component
-    method : str
-    seed : int
-    zipped : bool, glue the charts of our own segmentation
-    xatlas_options : dict, fields of xatlas.ChartOptions
-    e : Edges, of F, where the caller has them
+    mesh : Mesh, manifold, one component
+    options : ChartOptions
     ready : Background, a child that was told to get ready for the search
 
     Returns
@@ -71,85 +63,69 @@ def chart_component(
     ChartError
         The method does not fit the component, or a face has no area.
     """
+    method, seed = options.method, options.seed
     if method == "periodic":
-        return Charting(_rings(V, F, seed), "periodic")
-    if len(F) > _HEAVY:
-        e = edges(F) if e is None else e
-        W, G = coarsened(V, F, _MIDDLE, e)
-        if len(G) < len(F):
-            middle = smoothed(W, G, _PASSES), G
-            return _of_heavy(V, F, e, middle, method, seed, zipped, xatlas_options, ready)
-    light = proxy(V, F, e=e)
+        return Charting(_rings(mesh, seed), "periodic")
+    if len(mesh.F) > _HEAVY:
+        coarse = coarsened(mesh, _MIDDLE)
+        if coarse is not mesh:
+            return _of_heavy(mesh, smoothed(coarse, _PASSES), options, ready)
+    proxy = proxy_mesh(mesh)
     if method == "single":
-        return single_chart(V, F, light, seed)
+        return single_chart(mesh, proxy, seed)
     if method == "xatlas":
-        label = unwrap(*light, seed, xatlas_options)
-        return Charting(own_charts(V, F, light, label, "slim", seed=seed, e=e).charts, "xatlas")
-    rings, note = _good_rings(V, F, light, seed) if method == "auto" else (None, "")
-    if rings is not None and _seams(V, F, rings) <= _FEW_SEAMS:
+        label = unwrap(proxy.V, proxy.F, seed, options.xatlas)
+        return Charting(own_charts(mesh, proxy, label, "slim", seed).charts, "xatlas")
+    rings, note = _good_rings(mesh, proxy, seed) if method == "auto" else (None, "")
+    if rings is not None and _seams(mesh, rings) <= _FEW_SEAMS:
         return rings
-    flattening = "slim" if method == "auto" else method
+    flattening: Method = "slim" if method == "auto" else method
     if ready is not None:
         ready.result()
-    label = segment(*light, seed=seed, conformal=flattening == "lscm")
-    own = own_charts(V, F, light, label, flattening, seed=seed, zipped=zip_charts if zipped else None, e=e)
-    if rings is not None and _seams(V, F, rings) <= _seams(V, F, own):
+    label = segment(proxy.V, proxy.F, seed=seed, conformal=flattening == "lscm")
+    own = own_charts(mesh, proxy, label, flattening, seed, zip_charts if options.zipped else None)
+    if rings is not None and _seams(mesh, rings) <= _seams(mesh, own):
         return rings
-    return Charting(own.charts, own.method, own.leaf, note)
+    return replace(own, note=note)
 
 
-def _of_heavy(
-    V: Floats,
-    F: Ints,
-    e: Edges,
-    middle: tuple[Floats, Ints],
-    method: ComponentMethod,
-    seed: int,
-    zipped: bool,
-    xatlas_options: dict[str, Any] | None,
-    ready: Background | None,
-) -> Charting:
-    """Cut a coarser mesh into charts, and carry them over."""
-    found = chart_component(
-        *middle, method, seed=seed, zipped=zipped, xatlas_options=xatlas_options, ready=ready
-    )
-    note = found.note
-    if found.leaf is None:  # rings, which follow heights of the mesh itself
-        rings, note = _good_rings(V, F, middle, seed)
+def _of_heavy(mesh: Mesh, coarse: Mesh, options: ChartOptions, ready: Background | None) -> Charting:
+    """Cut a coarser mesh into charts, and transfer them."""
+    found = chart_component(coarse, options, ready)
+    if found.region is None:  # rings, which follow heights of the mesh itself
+        rings, note = _good_rings(mesh, coarse, options.seed)
         if rings is not None:
             return rings
-        found = chart_component(*middle, "slim", seed=seed, zipped=zipped)
-    light_leaf = np.zeros(len(middle[1]), np.int64) if found.leaf is None else found.leaf
-    flattening: Method = "lscm" if method == "lscm" else "slim"
-    charts, leaf = carry_over(V, F, middle, light_leaf, found.charts, flattening, seed, settles=False, e=e)
-    return Charting(charts, found.method, leaf, note)
+        found = replace(chart_component(coarse, replace(options, method="slim")), note=note)
+    flattening: Method = "lscm" if options.method == "lscm" else "slim"
+    return transfer_charts(mesh, coarse, found, flattening, options.seed, details=False)
 
 
-def _rings(V: Floats, F: Ints, seed: int) -> list[Chart]:
+def _rings(mesh: Mesh, seed: int) -> list[Chart]:
     from meshjig.charts.tubes.periodic import periodic
 
-    return periodic(V, F, seed)
+    return periodic(mesh, seed)
 
 
-def _good_rings(V: Floats, F: Ints, light: tuple[Floats, Ints], seed: int) -> tuple[Charting | None, str]:
+def _good_rings(mesh: Mesh, proxy: Mesh, seed: int) -> tuple[Charting | None, str]:
     """Give rings around a component where they pass the gates; else why not."""
-    from meshjig.charts.tubes.periodic import suits
+    from meshjig.charts.tubes.periodic import is_tubular
 
-    if not suits(*light):
+    if not is_tubular(proxy):
         return None, ""
     try:
-        rings = Charting(_rings(V, F, seed), "periodic")
+        rings = Charting(_rings(mesh, seed), "periodic")
     except ChartError as error:
         return None, f"periodic refused: {error.message}"
-    facts = _facts(V, F, rings)
-    if facts["flips"] or facts["overlaps"] or facts["gate_share"] < GATE:
-        return None, f"periodic refused: {facts['gate_share']:.1%} of the area within the gate"
+    facts = _measured(mesh, rings)
+    if facts.flips or facts.overlaps or facts.gate_share < GATE:
+        return None, f"periodic refused: {facts.gate_share:.1%} of the area within the gate"
     return rings, "periodic refused: longer seams"
 
 
-def _seams(V: Floats, F: Ints, charting: Charting) -> float:
-    return float(_facts(V, F, charting)["seam_over_sqrt_area"])
+def _seams(mesh: Mesh, charting: Charting) -> float:
+    return _measured(mesh, charting).seam_over_sqrt_area
 
 
-def _facts(V: Floats, F: Ints, charting: Charting) -> dict[str, Any]:
-    return quality(lay_out(Mesh(V, F), charting.charts))
+def _measured(mesh: Mesh, charting: Charting) -> AtlasDistortion:
+    return atlas_distortion(lay_out(mesh, charting.charts))

@@ -1,13 +1,15 @@
-"""Cuts along the edges of a mesh: opened, and followed from end to end."""
+"""Cuts along the edges of a mesh: opened, and followed as trimming curves."""
+
+from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from meshjig.mesh.halfedges import Edges, next_halfedge
-from meshjig.mesh.types import Bools, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
+from meshjig.mesh.boundary_loops import runs
+from meshjig.mesh.halfedges import Edges, edges, next_halfedge
+from meshjig.mesh.types import Atlas
 
-__all__ = ["chains", "cut_faces", "cut_open"]
+__all__ = ["TrimmingCurve", "cut_faces", "cut_open", "trimming_curves"]
 
 
 def cut_open(F: Ints, e: Edges, cut: Bools) -> tuple[Ints, Ints]:
@@ -42,7 +44,7 @@ def cut_faces(F: Ints, e: Edges, cut: Bools, faces: Ints) -> Ints:
 
     Returns
     -------
-    corners : (k, 3) int64, numbers of copies, 0 to n - 1; faces hang together over uncut edges
+    corners : (k, 3) int64, numbers of copies, 0 to n - 1; faces are connected over uncut edges
     """
     vertex, corner = F[faces].ravel(), (3 * faces[:, None] + np.arange(3)).ravel()
     whole = np.zeros(int(e.E.max(initial=-1)) + 1, bool)  # vertices that stay one
@@ -57,63 +59,69 @@ def cut_faces(F: Ints, e: Edges, cut: Bools, faces: Ints) -> Ints:
     number[h] = np.arange(len(h))
     rows = np.flatnonzero((e.twin[h] != h) & ~cut[e.edge_of_halfedge[h]])
     cols = number[next_halfedge(e.twin[h[rows]])]
-    graph = coo_matrix((np.ones(len(rows)), (rows, cols)), shape=(len(h), len(h)))
-    _, part = connected_components(graph, directed=False)
+    _, part = connected(len(h), rows, cols)
     copy[split] = whole.sum() + part
     return _as_they_come(copy).reshape(-1, 3)
 
 
-def chains(E: Ints, stops: Ints) -> list[Ints]:
-    """Follow edges from one vertex where they end, branch or are stopped to the next.
-
-    Parameters
-    ----------
-    E : (k, 2) int64, vertices
-    stops : (s,) int64, vertices where chains end though they would go on
-
-    Returns
-    -------
-    list of int64 arrays, rows of E in order along the chain; a loop starts anywhere
-    """
-    vertex, E = _renumbered(E)
-    stops = np.flatnonzero(np.isin(vertex, stops))
-    n = len(vertex)
-    degree = np.bincount(E.ravel(), minlength=n)
-    node = degree != 2
-    node[stops] = True
-    order = np.argsort(E.ravel(), kind="stable")
-    start = np.append(0, np.cumsum(degree)).tolist()
-    at_vertex, ends, is_node = (order // 2).tolist(), E.tolist(), node.tolist()
-    done = [False] * len(ends)
-
-    def walk(row: int, vertex: int) -> list[int]:
-        chain = []
-        while not done[row]:
-            done[row] = True
-            chain.append(row)
-            vertex = ends[row][1] if ends[row][0] == vertex else ends[row][0]
-            if is_node[vertex]:
-                break
-            first, second = at_vertex[start[vertex] : start[vertex + 1]]
-            row = second if first == row else first
-        return chain
-
-    found = [
-        walk(at_vertex[i], v) for v in np.flatnonzero(node).tolist() for i in range(start[v], start[v + 1])
-    ]
-    found += [walk(row, ends[row][0]) for row in range(len(ends))]
-    return [np.array(chain, np.int64) for chain in found if chain]
-
-
-def _renumbered(E: Ints) -> tuple[Ints, Ints]:
-    """Give the vertices that edges have, in order, and the edges with these numbered from 0."""
-    vertex, number = np.unique(E, return_inverse=True)
-    return vertex, number.reshape(E.shape)
-
-
 def _as_they_come(number: Ints) -> Ints:
-    """Number things (k,) anew in the order in which they first come: neighbours stay near in memory."""
+    """Number things (k,) again in the order in which they first come: neighbours stay near in memory."""
     first, place = np.empty(int(number.max(initial=-1)) + 1, np.int64), np.arange(len(number))
     first[number[::-1]] = place[::-1]
     first = first[number]
     return (np.cumsum(first == place) - 1)[first]
+
+
+class TrimmingCurve(NamedTuple):
+    """A stretch of a chart's border along one neighbour, its chart on the left."""
+
+    chart: int
+    mate: int  # chart on the other side, chart itself at a slit, -1 on an open border
+    uv: Floats  # (k, 2), mm
+    mate_uv: Floats  # (k, 2), mm, the same points in the mate's plane; (0, 2) on an open border
+    xyz: Floats  # (k, 3), mm, the same points in space
+
+
+def trimming_curves(atlas: Atlas) -> list[TrimmingCurve]:
+    """Divide the border of every chart where its neighbour changes.
+
+    Every seam comes twice, once from either side, running in opposite directions. A border without a
+    change is one curve whose last point repeats its first.
+
+    Parameters
+    ----------
+    atlas : Atlas
+
+    Returns
+    -------
+    list of TrimmingCurve
+    """
+    V, F, G = atlas.mesh.V, atlas.mesh.F.ravel(), atlas.F_uv.ravel()
+    twin = edges(atlas.mesh.F).twin
+    h = np.arange(len(twin))
+    rim = np.flatnonzero(edges(atlas.F_uv).twin == h)
+    mate = np.where(twin[rim] == rim, -1, atlas.chart_of_face[twin[rim] // 3])
+    following = _following(G, rim)
+    # A curve goes on when both sides do: the mate must have come from where it
+    # goes to now, and must not be the same stretch back, as at the end of a slit.
+    goes_on = mate == mate[following]
+    mate_start, next_mate_end = G[twin[rim]], G[next_halfedge(twin[rim[following]])]
+    goes_on &= (mate < 0) | ((mate_start == next_mate_end) & (twin[rim] != rim[following]))
+    curves = []
+    for run in runs(following, goes_on):
+        r = rim[run]
+        last = next_halfedge(r[-1:])
+        mate_uv = np.empty((0, 2))
+        if mate[run[0]] >= 0:
+            mate_uv = atlas.uv[np.append(G[next_halfedge(twin[r])], G[twin[r[-1:]]])]
+        own = np.append(r, last)
+        chart = int(atlas.chart_of_face[r[0] // 3])
+        curves.append(TrimmingCurve(chart, int(mate[run[0]]), atlas.uv[G[own]], mate_uv, V[F[own]]))
+    return curves
+
+
+def _following(G: Ints, rim: Ints) -> Ints:
+    """The index into rim of the border half-edge that each one leads to."""
+    by_start = np.full(int(G.max()) + 1, -1)
+    by_start[G[rim]] = np.arange(len(rim))
+    return by_start[G[next_halfedge(rim)]]

@@ -1,16 +1,14 @@
 """Take points and curves of the plane through a chart onto the surface."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.locate import locate
+from meshjig.mesh.arrays import Floats, Ints, ragged, ranks, row_of
 from meshjig.mesh.measure import barycentric, interpolate
 from meshjig.mesh.types import Atlas
 
-__all__ = ["curve", "lift"]
+__all__ = ["curve", "lift", "locate"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+_OUTSIDE = 1e-9  # barycentric coordinate down to which a point counts as inside
 
 
 def lift(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
@@ -68,7 +66,7 @@ def curve(atlas: Atlas, chart: int, polyline: Floats) -> list[Floats]:
 
 
 def _located(atlas: Atlas, chart: int, uv: Floats) -> tuple[Ints, Floats, Floats]:
-    """Give the face or -1, where in it, and by what whole periods a point was moved (k, 2), mm."""
+    """The face or -1, where in it, and by what whole periods a point was moved (k, 2), mm."""
     faces = np.flatnonzero(atlas.chart_of_face == chart)
     G = atlas.F_uv[faces]
     low, high = float(atlas.uv[G, 0].min()), float(atlas.uv[G, 0].max())
@@ -93,7 +91,7 @@ def _period(atlas: Atlas, chart: int) -> float:
 
 
 def _in_face(atlas: Atlas, face: Ints, points: Floats) -> Floats:
-    """Give barycentric coordinates of points that lie in or on their faces, rounding taken off."""
+    """Barycentric coordinates of points that lie in or on their faces, rounding taken off."""
     bary = np.maximum(barycentric(atlas.uv, atlas.F_uv, face, points), 0)
     clean: Floats = bary / bary.sum(1, keepdims=True)
     return clean
@@ -131,7 +129,7 @@ def _shifts(atlas: Atlas, chart: int, line: Floats) -> list[float]:
 
 
 def _meetings(line: Floats, segment: Ints, E: Floats) -> Floats:
-    """Give where segments of a line meet edges (k, 2, 2): segment + share of it; none for parallels."""
+    """Where segments of a line meet edges (k, 2, 2): segment + share of it; none for parallels."""
     origin, along = line[segment], line[segment + 1] - line[segment]
     foot, side = E[:, 0], E[:, 1] - E[:, 0]
     det = _cross(along, side)
@@ -150,3 +148,51 @@ def _along(line: Floats, parameter: Floats) -> Floats:
 def _cross(a: Floats, b: Floats) -> Floats:
     det: Floats = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     return det
+
+
+def locate(uv: Floats, F: Ints, points: Floats) -> tuple[Ints, Floats]:
+    """Locate points among triangles, by a uniform grid.
+
+    Parameters
+    ----------
+    uv : (n, 2) float64
+    F : (m, 3) int64
+    points : (k, 2) float64
+
+    Returns
+    -------
+    face : (k,) int64, -1 where a point lies in no triangle
+    bary : (k, 3) float64, nan there
+    """
+    face, bary = np.full(len(points), -1, np.int64), np.full((len(points), 3), np.nan)
+    if not len(F) or not len(points):
+        return face, bary
+    low, high = uv[F].min(1), uv[F].max(1)
+    origin, cell = low.min(0), max(2 * float(np.mean(high - low)), 1e-12)
+    shape = np.floor((high.max(0) - origin) / cell).astype(np.int64) + 1
+    row, triangle = _covered_cells((low - origin) / cell, (high - origin) / cell, shape)
+    order = np.argsort(row, kind="stable")
+    start = np.searchsorted(row[order], np.arange(shape.prod() + 1))
+
+    at = np.floor((points - origin) / cell)
+    on_grid = np.flatnonzero((np.isfinite(at) & (at >= 0) & (at < shape)).all(1))
+    here = at[on_grid].astype(np.int64) @ np.array([shape[1], 1])
+    sizes = start[here + 1] - start[here]
+    which = row_of(sizes)
+    point, candidate = on_grid[which], triangle[order[ragged(start[here], sizes)]]
+    weights = barycentric(uv, F, candidate, points[point])
+    depth = weights.min(1)
+    best = np.lexsort([-depth, point])
+    best = best[np.unique(point[best], return_index=True)[1]]
+    best = best[depth[best] >= -_OUTSIDE]
+    face[point[best]], bary[point[best]] = candidate[best], weights[best]
+    return face, bary
+
+
+def _covered_cells(low: Floats, high: Floats, shape: Ints) -> tuple[Ints, Ints]:
+    """List (cell, box) pairs for boxes given in units of a cell."""
+    first = np.floor(low).astype(np.int64)
+    n = np.minimum(np.floor(high).astype(np.int64), shape - 1) - first + 1
+    box, offset = row_of(n.prod(1)), ranks(n.prod(1))
+    i, j = first[box, 0] + offset // n[box, 1], first[box, 1] + offset % n[box, 1]
+    return i * shape[1] + j, box

@@ -137,7 +137,8 @@ def info(
             scan = ReadAhead(mesh)
             from meshjig.scan import describe
 
-            facts = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
+            found = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
+            facts = dict(found.as_dict())
         emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshjig.mesh.cycles import chains
 from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
 from meshjig.mesh.measure import barycentric
 from meshjig.mesh.types import Atlas, Bools, CutMesh, Floats, Ints, Outlines
@@ -98,28 +99,19 @@ def along_seams(seams: SeamEdges) -> tuple[PlaneCurves, Ints]:
     row : (k,) int64, the seam edge that each stretch is
     """
     rows = np.flatnonzero(seams.active)
-    start = {(v, *uv): row for row, v, uv in _places(rows, seams.vertices[:, 0], seams.start)}
-    following = {row: start.get((v, *uv)) for row, v, uv in _places(rows, seams.vertices[:, 1], seams.end)}
-    led_to = set(following.values())
-    order: list[int] = []
-    follows: list[bool] = []
-    for first in [row for row in following if row not in led_to] + list(following):
-        row: int | None = first
-        while row is not None and row in following:
-            order.append(row)
-            follows.append(row != first)
-            row = following.pop(row)
-    chosen = np.array(order, dtype=np.int64)
-    curves = PlaneCurves(
-        seams.start[chosen], seams.end[chosen], seams.parent[chosen], np.array(follows, dtype=bool)
-    )
-    return curves, chosen
+    start = {(v, *uv): k for k, v, uv in _places(rows, seams.vertices[:, 0], seams.start)}
+    ends = _places(rows, seams.vertices[:, 1], seams.end)
+    order, first = chains(np.array([start.get((v, *uv), -1) for _, v, uv in ends], np.int64))
+    follows = np.ones(len(order), bool)
+    follows[first] = False
+    chosen = rows[order]
+    return PlaneCurves(seams.start[chosen], seams.end[chosen], seams.parent[chosen], follows), chosen
 
 
 def _places(rows: Ints, vertex: Ints, uv: Floats) -> Iterator[tuple[int, int, tuple[int, int]]]:
     """Name the places of rows by vertex and rounded point: a vertex may lie in several charts."""
     cells = np.rint(uv[rows] / SAME_PLACE).astype(np.int64)
-    return zip(rows.tolist(), vertex[rows].tolist(), map(tuple, cells.tolist()), strict=True)
+    return zip(range(len(rows)), vertex[rows].tolist(), map(tuple, cells.tolist()), strict=True)
 
 
 def _on_seam(atlas: Atlas, parent: Ints) -> Bools:

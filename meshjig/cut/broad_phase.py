@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import equal_pairs, ranks, row_of
 from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["Boxes", "Cells", "box_pairs", "boxes", "make_cells", "near"]
@@ -93,12 +94,8 @@ def box_pairs(A: Boxes, B: Boxes) -> tuple[Ints, Ints]:
     nx = int(max(A.high[:, 0].max(initial=0), B.high[:, 0].max(initial=0))) + 1
     a, cell_a = _spread(A, nx)
     b, cell_b = _spread(B, nx)
-    order = np.argsort(cell_b, kind="stable")
-    cell_b, b = cell_b[order], b[order]
-    first = np.searchsorted(cell_b, cell_a, "left")
-    count = np.searchsorted(cell_b, cell_a, "right") - first
-    a, cell = np.repeat(a, count), np.repeat(cell_a, count)
-    b = b[_ranges(first, count)]
+    i, j = equal_pairs(cell_a, cell_b)
+    a, b, cell = a[i], b[j], cell_a[i]
     # a pair is listed in the cell at the low corner of what both cover
     corner = np.maximum(A.low[a, 0], B.low[b, 0]) + np.maximum(A.low[a, 1], B.low[b, 1]) * nx
     once = corner == cell
@@ -113,17 +110,11 @@ def _area(around: Boxes) -> Ints:
     return np.prod(around.high - around.low + 1, axis=1)
 
 
-def _ranges(first: Ints, count: Ints) -> Ints:
-    """Concatenate first[i], first[i] + 1, ... of count[i] numbers each."""
-    return np.arange(int(count.sum())) + np.repeat(first - (np.cumsum(count) - count), count)
-
-
 def _spread(around: Boxes, nx: int) -> tuple[Ints, Ints]:
     """List (item, cell) for all cells of all boxes."""
     width = around.high[:, 0] - around.low[:, 0] + 1
     count = _area(around)
-    item = np.repeat(np.arange(len(count)), count)
-    k = _ranges(np.zeros_like(count), count)
+    item, k = row_of(count), ranks(count)
     row = k // width[item]
     corner = around.low[:, 0] + around.low[:, 1] * nx
     return item, corner[item] + k - row * width[item] + row * nx

@@ -4,16 +4,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.halfedges import edge_keys, next_halfedge
 from meshjig.mesh.measure import barycentric, interpolate
 from meshjig.mesh.types import Atlas, CutMesh, Floats, Ints, Mesh, Outlines
 
-__all__ = ["Further", "cut_further"]
+__all__ = ["ComposedCut", "compose_cuts"]
 
 _SAME_PLACE = 1e-6  # mm in the plane
 
 
-class Further(NamedTuple):
+class ComposedCut(NamedTuple):
     """A mesh cut twice, as if it had been cut once."""
 
     cut: CutMesh
@@ -22,9 +23,9 @@ class Further(NamedTuple):
     part_of: Ints  # (c,), the segments of the second outlines that the added ones are parts of, in order
 
 
-def cut_further(
+def compose_cuts(
     atlas: Atlas, outlines: Outlines, first: CutMesh, chosen: Ints, kept: Ints, second: CutMesh
-) -> Further:
+) -> ComposedCut:
     """Carry a cut of some faces of a cut mesh back to the atlas of the whole mesh.
 
     Parameters
@@ -39,7 +40,7 @@ def cut_further(
 
     Returns
     -------
-    Further
+    ComposedCut
         Vertices of the first cut keep their numbers. Where the second cut has been, it says which label
         and region faces have; its numbers follow those of the first.
     """
@@ -53,7 +54,7 @@ def cut_further(
     V = np.concatenate([first.V, second.V[n_kept:]])
 
     on, bary = chosen[second.vertex_face[n_kept:]], second.vertex_bary[n_kept:]
-    parent, place = _in_mesh(atlas.mesh, first, on, bary)
+    parent, place = first.carry_back(on, bary)
     vertex_face = np.concatenate([first.vertex_face, parent])
     vertex_bary = np.concatenate([first.vertex_bary, place])
     cuts, source, param = _split(first, n + np.arange(len(on)), on, bary)
@@ -66,8 +67,8 @@ def cut_further(
     region = np.concatenate([first.region[rest_faces], int(first.region.max()) + 1 + second.region])
     n_segments = len(outlines.segments)
     cut = CutMesh(
-        V=V,
-        F=F,
+        mesh=Mesh(V, F),
+        of=atlas.mesh,
         parent=first.parent[face],
         label=label,
         region=region,
@@ -83,20 +84,7 @@ def cut_further(
     point = np.full(len(V) + 1, -1)
     point[point_vertex] = len(outlines.points) + np.arange(len(points))
     landed = np.where(second.point_vertex >= 0, number[second.point_vertex], -1)
-    return Further(cut, whole, point[landed], second.cut_segment[order])
-
-
-def _in_mesh(mesh: Mesh, first: CutMesh, on: Ints, bary: Floats) -> tuple[Ints, Floats]:
-    """Give the faces of the mesh that places in faces of a cut mesh lie in, and where in these."""
-    parent, corner = first.parent[on], first.F[on]
-    known = first.vertex_face[corner] == parent[:, None]
-    at = first.vertex_bary[corner]
-    row, k = np.nonzero(~known)
-    at[row, k] = barycentric(mesh.V, mesh.F, parent[row], first.V[corner[row, k]])
-    is_corner = corner[row, k][:, None] == mesh.F[parent[row]]
-    at[row, k] = np.where(is_corner.any(1)[:, None], is_corner, np.maximum(at[row, k], 0.0))
-    place = np.einsum("nk,nkd->nd", bary, at)
-    return parent, place / place.sum(1, keepdims=True)
+    return ComposedCut(cut, whole, point[landed], second.cut_segment[order])
 
 
 def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, Ints, Floats]:
@@ -109,11 +97,7 @@ def _split(first: CutMesh, vertex: Ints, on: Ints, bary: Floats) -> tuple[Ints, 
     towards_b = bary[at_edge, (opposite + 2) % 3]
     n = len(first.V)
     key, of_cut = edge_keys(np.stack([a, b], 1), n), edge_keys(first.cuts, n)
-    order = np.argsort(of_cut, kind="stable")
-    low, high = (np.searchsorted(of_cut[order], key, side=side) for side in ("left", "right"))
-    count = high - low  # a cut may be there twice, where two segments fell together
-    of = np.repeat(rows, count)
-    hit = order[np.repeat(low - (np.cumsum(count) - count), count) + np.arange(len(of))]
+    of, hit = equal_pairs(key, of_cut)  # a cut may be there twice, where two segments fell together
     along = np.where(first.cuts[hit, 0] == a[of], towards_b[of], 1 - towards_b[of])
 
     cut = np.concatenate([np.arange(len(of_cut)), np.arange(len(of_cut)), hit])

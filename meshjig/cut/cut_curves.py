@@ -1,9 +1,9 @@
 """The cuts as polylines in space and in the plane."""
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.mesh.arrays import connected, starts
+from meshjig.mesh.cycles import chains
 from meshjig.mesh.types import CutMesh, Floats, Ints, Outlines
 
 __all__ = ["cut_curves"]
@@ -51,7 +51,7 @@ def _partners(vertex: Ints, uv: Floats) -> Ints:
     joins = (v[1:] == v[:-1]) & (np.abs(p[1:] - p[:-1]).max(axis=1) < SAME_MM)
     run = np.cumsum(np.append(True, ~joins)) - 1
     size = np.bincount(run)
-    first = (np.cumsum(size) - size)[size == 2]
+    first = starts(size)[size == 2]
     partner = np.arange(len(vertex))
     partner[order[first]], partner[order[first + 1]] = order[first + 1], order[first]
     return partner
@@ -61,21 +61,10 @@ def _walks(partner: Ints) -> list[Ints]:
     """Walk along every curve: the ends at which one comes to its cuts, one after another."""
     n = len(partner)
     end = np.arange(n)
-    going_on = np.flatnonzero(partner > end)
-    graph = coo_matrix(
-        (np.ones(len(going_on), np.int8), (going_on // 2, partner[going_on] // 2)), shape=(n // 2, n // 2)
-    )
-    n_curves, curve = connected_components(graph, directed=False)
-    start = np.empty(n_curves, np.int64)
-    start[curve[end[::-1] // 2]] = end[::-1]
-    loose = np.flatnonzero(partner == end)[::-1]
-    start[curve[loose // 2]] = loose  # an open curve starts at a loose end, a closed one anywhere
-    step = partner.tolist()
-    walks = []
-    for first in start.tolist():
-        here, walk = first, [first]
-        while (after := step[here ^ 1]) not in (here ^ 1, first):
-            walk.append(after)
-            here = after
-        walks.append(np.array(walk, np.int64))
-    return walks
+    curve = connected(n // 2, end // 2, partner // 2)[1]
+    other = end ^ 1
+    order, first = chains(np.where(partner[other] == other, -1, partner[other]))
+    # each curve is there in both directions, an open one from its loose ends: the first found is taken
+    taken = np.unique(curve[order[first] // 2], return_index=True)[1]
+    walks = np.split(order, first[1:])
+    return [walks[k] for k in taken.tolist()]

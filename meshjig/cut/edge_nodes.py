@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cut.edge_crossings import Crossings
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import Sheet
+from meshjig.cut.trace import Crossings
+from meshjig.cut.uv_mesh import UvMesh
+from meshjig.mesh.arrays import starts
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["APART_MM", "EdgeNodes", "edge_nodes"]
@@ -30,32 +31,32 @@ class EdgeNodes(NamedTuple):
     n_respaced: int  # edges on which nodes were moved apart
 
 
-def edge_nodes(sheet: Sheet, graph: Graph, crossings: Crossings) -> EdgeNodes:
+def edge_nodes(uv_mesh: UvMesh, graph: Graph, crossings: Crossings) -> EdgeNodes:
     """Make a node for each crossing, one for two where cuts meet over a seam.
 
     Both sides of a seam get all nodes of their common edge, so that the cut mesh conforms over it.
     """
-    edge = sheet.side_edge[crossings.side]
-    along = np.where(sheet.side_agrees[crossings.side], crossings.along_side, 1 - crossings.along_side)
+    edge = uv_mesh.side_edge[crossings.side]
+    along = np.where(uv_mesh.side_agrees[crossings.side], crossings.along_side, 1 - crossings.along_side)
     order = np.lexsort((along, edge))
     tied = np.zeros(len(order), bool)
     tied[1:] = (edge[order[1:]] == edge[order[:-1]]) & (along[order[1:]] - along[order[:-1]] < TIE)
     if tied.any():
-        order = _exact_order(sheet, graph, crossings, order, tied)
+        order = _exact_order(uv_mesh, graph, crossings, order, tied)
     E, T = edge[order], along[order]
-    length = np.linalg.norm(sheet.V[sheet.E[E, 0]] - sheet.V[sheet.E[E, 1]], axis=1)
+    length = np.linalg.norm(uv_mesh.V[uv_mesh.E[E, 0]] - uv_mesh.V[uv_mesh.E[E, 1]], axis=1)
     merged = _meets_over_seam(crossings.side[order], E, T * length)
     node = np.cumsum(~merged) - 1
     of_crossing = np.empty(len(order), np.int64)
     of_crossing[order] = node
     edge, along, length = E[~merged], T[~merged], length[~merged]
-    count = np.bincount(edge, minlength=len(sheet.E))
-    first = np.cumsum(count) - count
+    count = np.bincount(edge, minlength=len(uv_mesh.E))
+    first = starts(count)
     along, n_respaced = _respaced(edge, along, length, np.arange(len(edge)) - first[edge], count[edge])
     return EdgeNodes(edge, along, of_crossing, first, count, int(tied.sum()), int(merged.sum()), n_respaced)
 
 
-def _exact_order(sheet: Sheet, graph: Graph, crossings: Crossings, order: Ints, tied: Bools) -> Ints:
+def _exact_order(uv_mesh: UvMesh, graph: Graph, crossings: Crossings, order: Ints, tied: Bools) -> Ints:
     """Sort runs of nearly equal crossings of one side by their exact place, symbolic shift included."""
     run = np.cumsum(~tied)
     member = tied.copy()
@@ -65,7 +66,7 @@ def _exact_order(sheet: Sheet, graph: Graph, crossings: Crossings, order: Ints, 
     side = crossings.side[x]
     ends = graph.points[graph.segments[crossings.segment[x]]]
     d = ends[:, 1] - ends[:, 0]
-    sign = np.where(sheet.side_agrees[side], 1, -1)
+    sign = np.where(uv_mesh.side_agrees[side], 1, -1)
     keys = []
     for r, s, (p, q), (dx, dy), up in zip(
         run.tolist(), side.tolist(), crossings.turns[x].tolist(), d.tolist(), sign.tolist(), strict=True

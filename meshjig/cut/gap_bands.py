@@ -5,8 +5,9 @@ from typing import Any, Literal
 import numpy as np
 
 from meshjig.cut.border_curves import PlaneCurves, SeamEdges, along_seams, cut_borders, seam_borders
-from meshjig.cut.metric import face_metric, half_width
+from meshjig.mesh.arrays import next_in_loop, ranks, row_of
 from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.metric import face_metric
 from meshjig.mesh.types import GAP, Atlas, CutMesh, Floats, Ints, Outlines
 
 __all__ = ["gap_outlines"]
@@ -75,8 +76,27 @@ def gap_outlines(
 def _widths(atlas: Atlas, start: Floats, end: Floats, parent: Ints, clearance: float, method: str) -> Floats:
     if method == "domain":
         return np.full(len(start), clearance / 2)
-    width = half_width(face_metric(atlas, parent), end - start, clearance)
+    width = _half_width(face_metric(atlas, parent), end - start, clearance)
     return np.clip(width, clearance / 6, 1.5 * clearance)
+
+
+def _half_width(metric: Floats, tangent: Floats, clearance: float) -> Floats:
+    """Give the distance in the plane that is half a clearance on the surface, across a curve.
+
+    Parameters
+    ----------
+    metric : (k, 3) float64, see `face_metric`
+    tangent : (k, 2) float64, the curve's direction in the plane
+    clearance : float, mm
+
+    Returns
+    -------
+    (k,) float64, mm in the plane: (c / 2) |J t| / det J for a unit tangent t
+    """
+    t = tangent / np.maximum(np.linalg.norm(tangent, axis=1), 1e-300)[:, None]
+    along = metric[:, 0] * t[:, 0] ** 2 + 2 * metric[:, 1] * t[:, 0] * t[:, 1] + metric[:, 2] * t[:, 1] ** 2
+    det = np.sqrt(np.maximum(metric[:, 0] * metric[:, 2] - metric[:, 1] ** 2, 1e-12))
+    return clearance / 2 * np.sqrt(np.maximum(along, 1e-12)) / det
 
 
 def _around_crease(atlas: Atlas, seams: SeamEdges) -> Floats:
@@ -162,9 +182,8 @@ def _carried_over(
 def _samples(direction: Floats, step: float) -> tuple[Ints, Floats]:
     """Spread samples over segments: the segment of each, and its place from 0 to 1."""
     n = np.ceil(np.linalg.norm(direction, axis=1) / step).astype(np.int64) + 1
-    row = np.repeat(np.arange(len(n)), n)
-    rank = np.arange(len(row)) - np.repeat(np.cumsum(n) - n, n)
-    return row, rank / np.maximum(n[row] - 1, 1)
+    row = row_of(n)
+    return row, ranks(n) / np.maximum(n[row] - 1, 1)
 
 
 def _as_outlines(band: Any, clearance: float) -> Outlines:
@@ -176,9 +195,6 @@ def _as_outlines(band: Any, clearance: float) -> Outlines:
     points, ring = shapely.get_coordinates(rings, return_index=True)
     repeats_first = np.append(ring[1:] != ring[:-1], True)[: len(ring)]
     points, ring = points[~repeats_first], ring[~repeats_first]
-    size = np.bincount(ring, minlength=len(rings))
-    first = np.cumsum(size) - size
-    following = np.arange(1, len(points) + 1)
-    following[first + size - 1] = first
+    following = next_in_loop(np.bincount(ring, minlength=len(rings)))
     segments = np.stack([np.arange(len(points)), following], 1)
     return Outlines(points, segments, np.full(len(points), GAP), np.zeros(len(points), np.int64))

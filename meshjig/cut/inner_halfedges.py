@@ -1,14 +1,15 @@
-"""The half-edges inside cut faces: around each face, and both ways along each link."""
+"""The half-edges inside cut faces: around each face, and both ways along each face segment."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from meshjig.cut.edge_nodes import EdgeNodes
-from meshjig.cut.face_segments import Links, corner_of_side
 from meshjig.cut.predicates import angular_order
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import Sheet, forward
+from meshjig.cut.trace import FaceSegments, Trace
+from meshjig.cut.uv_mesh import UvMesh, corner_of_side, forward
+from meshjig.mesh.arrays import next_in_loop, ranks, row_of, starts
 from meshjig.mesh.types import Ints
 
 __all__ = ["Ring", "Wiring", "make_ring", "wire"]
@@ -28,56 +29,47 @@ class Ring(NamedTuple):
 
 
 class Wiring(NamedTuple):
-    """Ring half-edges, then links forth, then links back: who follows whom."""
+    """Ring half-edges, then face segments forth, then back: who follows whom."""
 
     next: Ints  # (r + 2 l,)
-    leaving: Ints  # (c,), link half-edges that leave an edge node
+    leaving: Ints  # (c,), half-edges of face segments that leave an edge node
     slot: Ints  # (c,), the ring half-edge that starts at the same node
 
 
-def make_ring(sheet: Sheet, nodes: EdgeNodes, linked: Ints) -> Ring:
-    """List the half-edges around all faces that have nodes on their edges, or links (linked: faces)."""
-    per_side = nodes.number[sheet.edge]
+def make_ring(uv_mesh: UvMesh, nodes: EdgeNodes, linked: Ints) -> Ring:
+    """List the half-edges around all faces that have nodes on their edges, or segments (linked: faces)."""
+    per_side = nodes.number[uv_mesh.edge]
     touched = per_side.reshape(-1, 3).sum(axis=1) > 0
     touched[linked] = True
     faces = np.flatnonzero(touched)
-    row = np.full(len(sheet.F), -1)
+    row = np.full(len(uv_mesh.F), -1)
     row[faces] = np.arange(len(faces))
 
     h = (3 * faces[:, None] + np.arange(3)).ravel()
     size = per_side[h] + 1
-    first = np.cumsum(size) - size
-    owner = np.repeat(np.arange(len(h)), size)
-    rank = np.arange(len(owner)) - first[owner]
-    edge, runs_up = sheet.edge[h[owner]], forward(sheet.F[faces])[owner]
+    owner, rank = row_of(size), ranks(size)
+    edge, runs_up = uv_mesh.edge[h[owner]], forward(uv_mesh.F[faces])[owner]
     count = nodes.number[edge]
     node = np.where(rank == 0, -1, nodes.first[edge] + np.where(runs_up, rank - 1, count - rank))
     interval = nodes.first[edge] + edge + np.where(runs_up, rank, count - rank)
 
-    follows = np.arange(1, len(owner) + 1)
-    start = first.reshape(-1, 3)
-    follows[np.append(start[1:, 0], len(owner))[: len(faces)] - 1] = start[:, 0]
-    return Ring(faces, row, owner // 3, owner % 3, node, interval, start, follows)
+    follows = next_in_loop(size.reshape(-1, 3).sum(1))
+    return Ring(faces, row, owner // 3, owner % 3, node, interval, starts(size).reshape(-1, 3), follows)
 
 
-def wire(sheet: Sheet, graph: Graph, nodes: EdgeNodes, ring: Ring, links: Links, stops: tuple) -> Wiring:
-    """Say which half-edge follows which, so that every part of a face is one cycle.
-
-    Parameters
-    ----------
-    stops : (Crossings, Landings)
-    """
-    crossings, landings = stops
-    nx, nr, nl = len(crossings.side), len(ring.next), len(links.face)
-    tail = np.concatenate([links.start, links.end])
-    face = np.concatenate([links.face, links.face])
+def wire(uv_mesh: UvMesh, graph: Graph, nodes: EdgeNodes, ring: Ring, seen: Trace) -> Wiring:
+    """Say which half-edge follows which, so that every part of a face is one cycle."""
+    crossings, hits, face_segments = seen
+    nx, nr, nl = len(crossings.side), len(ring.next), len(face_segments.face)
+    tail = np.concatenate([face_segments.start, face_segments.end])
+    face = np.concatenate([face_segments.face, face_segments.face])
     half = nr + np.arange(2 * nl)
     back = np.concatenate([half[nl:], half[:nl]])
     follows = np.concatenate([ring.next, back])
 
     at_edge = tail < nx
     x = tail[at_edge]
-    slot = _slots(sheet, nodes, ring, face[at_edge], crossings.side[x], nodes.of_crossing[x])
+    slot = _slots(uv_mesh, nodes, ring, face[at_edge], crossings.side[x], nodes.of_crossing[x])
     leaving, arriving = half[at_edge], back[at_edge]
     before = np.empty(nr, np.int64)
     before[ring.next] = np.arange(nr)
@@ -86,42 +78,40 @@ def wire(sheet: Sheet, graph: Graph, nodes: EdgeNodes, ring: Ring, links: Links,
 
     inside = ~at_edge
     stop = tail[inside] - nx
-    follows[_turns(graph, links, landings.point[stop], stop, half[inside] - nr, nr)] = half[inside]
+    follows[_turns(graph, face_segments, hits.point[stop], stop, half[inside] - nr, nr)] = half[inside]
     return Wiring(follows, leaving, slot)
 
 
-def _slots(sheet: Sheet, nodes: EdgeNodes, ring: Ring, face: Ints, side: Ints, node: Ints) -> Ints:
+def _slots(uv_mesh: UvMesh, nodes: EdgeNodes, ring: Ring, face: Ints, side: Ints, node: Ints) -> Ints:
     """Give the ring half-edges of faces that start at nodes on their sides."""
-    corner = corner_of_side(sheet, face, side)
-    edge = sheet.side_edge[side]
+    corner = corner_of_side(uv_mesh, face, side)
+    edge = uv_mesh.side_edge[side]
     rank = node - nodes.first[edge]
-    runs_up = forward(sheet.F[face]).reshape(-1, 3)[np.arange(len(face)), corner]
+    runs_up = forward(uv_mesh.F[face]).reshape(-1, 3)[np.arange(len(face)), corner]
     rank = np.where(runs_up, rank + 1, nodes.number[edge] - rank)
     return ring.start[ring.row[face], corner] + rank
 
 
-def _turns(graph: Graph, links: Links, point: Ints, stop: Ints, half: Ints, n_ring: int) -> Ints:
-    """Give, for half-edges that leave landings, those after which they come.
+def _turns(
+    graph: Graph, face_segments: FaceSegments, point: Ints, stop: Ints, half: Ints, n_ring: int
+) -> Ints:
+    """Give, for half-edges that leave point hits, those after which they come.
 
-    About a landing, faces lie on the left of half-edges: who arrives leaves by the next direction
+    About a point hit, faces lie on the left of half-edges: who arrives leaves by the next direction
     clockwise, or counter-clockwise in a mirrored face.
     """
     if not len(half):
         return half
-    nl = len(links.face)
-    link, is_back = half % nl, half >= nl
-    ends = graph.segments[links.segment[link]]
+    nl = len(face_segments.face)
+    which, is_back = half % nl, half >= nl
+    ends = graph.segments[face_segments.segment[which]]
     far = np.where(ends[:, 0] == point, ends[:, 1], ends[:, 0])
     order = angular_order(stop, graph.points[far] - graph.points[point])
-    group = stop[order]
-    first = np.flatnonzero(np.append(True, group[1:] != group[:-1]))
-    last = np.append(first[1:], len(group)) - 1
-    successor = np.arange(1, len(group) + 1)
-    successor[last] = first
+    successor = next_in_loop(np.bincount(stop))
     predecessor = np.empty_like(successor)
-    predecessor[successor] = np.arange(len(group))
+    predecessor[successor] = np.arange(len(successor))
     # half-edge i is followed, when one comes in along direction j, iff i is before j clockwise
-    other = np.where(links.mirrored[link[order]], predecessor, successor)
+    other = np.where(face_segments.mirrored[which[order]], predecessor, successor)
     incoming = np.empty(len(order), np.int64)
     incoming[order] = order[other]
     arrived = np.where(is_back, half - nl, half + nl)

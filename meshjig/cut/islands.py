@@ -7,31 +7,39 @@ of the face, makes it cross an edge.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from meshjig.cut.places import kept_off_edges
 from meshjig.cut.predicates import orient
 from meshjig.cut.snap import Graph
 from meshjig.cut.trace import Trace, trace
-from meshjig.cut.uv_mesh import Sheet, make_sheet
+from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
+from meshjig.mesh.arrays import connected
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["Origin", "in_mesh", "without_islands"]
+__all__ = ["Joined", "Origin", "in_mesh", "without_islands"]
 
 ROUNDS = 60  # each round splits every face with islands once
 
 
 class Origin(NamedTuple):
-    """Where the faces of a sheet came from: whole faces first, then parts of faces."""
+    """Where the faces of a UV mesh came from: whole faces first, then parts of faces."""
 
     face: Ints  # (m,), the face of the mesh
     n_whole: int
     bary: Floats  # (m - n_whole, 3, 3), where the corners of a part lie in its face of the mesh
 
 
+class Joined(NamedTuple):
+    """A UV mesh in which all outlines are joined to the borders of their faces."""
+
+    uv_mesh: UvMesh  # new vertices come after the old ones
+    origin: Origin
+    graph: Graph
+    seen: Trace  # of the graph on the UV mesh
+
+
 def in_mesh(origin: Origin, face: Ints, bary: Floats) -> tuple[Ints, Floats]:
-    """Carry places (face, bary (n, 3)) from the sheet to the mesh."""
+    """Carry places (face, bary (n, 3)) from the UV mesh to the mesh."""
     part = np.flatnonzero(face >= origin.n_whole)
     if len(part):
         bary = bary.copy()
@@ -39,34 +47,30 @@ def in_mesh(origin: Origin, face: Ints, bary: Floats) -> tuple[Ints, Floats]:
     return origin.face[face], bary
 
 
-def without_islands(sheet: Sheet, graph: Graph) -> tuple[Sheet, Origin, Graph, Trace]:
+def without_islands(uv_mesh: UvMesh, graph: Graph) -> Joined:
     """Split faces until every outline in them is joined to their border.
 
     An outline too small for that, a few grid steps across, is left out.
 
     Returns
     -------
-    sheet : Sheet
-        New vertices come after the old ones.
-    origin : Origin
-    graph : Graph
-    trace : Trace, of graph on sheet
+    Joined
     """
-    m = len(sheet.F)
-    first = trace(sheet, graph)
-    lonely = _island_links(first)
+    m = len(uv_mesh.F)
+    first = trace(uv_mesh, graph)
+    lonely = _island_segments(first)
     if not len(lonely):
-        return sheet, Origin(np.arange(m), m, np.zeros((0, 3, 3))), graph, first
+        return Joined(uv_mesh, Origin(np.arange(m), m, np.zeros((0, 3, 3))), graph, first)
 
-    faces = np.unique(first.links.face[lonely])
+    faces = np.unique(first.face_segments.face[lonely])
     part = _Part(
-        make_sheet(sheet.V, sheet.F[faces], sheet.U, sheet.F_uv[faces], sheet.chart[faces]),
+        make_uv_mesh(uv_mesh.V, uv_mesh.F[faces], uv_mesh.U, uv_mesh.F_uv[faces], uv_mesh.chart[faces]),
         faces,
         np.tile(np.eye(3), (len(faces), 1, 1)),
     )
     for _ in range(ROUNDS):
-        seen = trace(part.sheet, graph)
-        lonely = _island_links(seen)
+        seen = trace(part.uv_mesh, graph)
+        lonely = _island_segments(seen)
         if not len(lonely):
             break
         split = _split(part, graph, seen, lonely)
@@ -75,69 +79,68 @@ def without_islands(sheet: Sheet, graph: Graph) -> tuple[Sheet, Origin, Graph, T
         part = split
     if len(lonely):
         kept = np.ones(len(graph.segments), bool)
-        kept[seen.links.segment[lonely]] = False
+        kept[seen.face_segments.segment[lonely]] = False
         graph = graph.take(kept)
 
     whole = np.setdiff1d(np.arange(m), faces, assume_unique=True)
-    merged = make_sheet(
-        part.sheet.V,
-        np.concatenate([sheet.F[whole], part.sheet.F]),
-        part.sheet.U,
-        np.concatenate([sheet.F_uv[whole], part.sheet.F_uv]),
-        np.concatenate([sheet.chart[whole], part.sheet.chart]),
+    merged = make_uv_mesh(
+        part.uv_mesh.V,
+        np.concatenate([uv_mesh.F[whole], part.uv_mesh.F]),
+        part.uv_mesh.U,
+        np.concatenate([uv_mesh.F_uv[whole], part.uv_mesh.F_uv]),
+        np.concatenate([uv_mesh.chart[whole], part.uv_mesh.chart]),
     )
     origin = Origin(np.concatenate([whole, part.face]), len(whole), part.bary)
-    return merged, origin, graph, trace(merged, graph)
+    return Joined(merged, origin, graph, trace(merged, graph))
 
 
 class _Part(NamedTuple):
-    sheet: Sheet
+    uv_mesh: UvMesh
     face: Ints
     bary: Floats
 
 
-def _island_links(seen: Trace) -> Ints:
-    """List the links that no chain of links joins to the border of their face."""
+def _island_segments(seen: Trace) -> Ints:
+    """List the segments that no chain of segments joins to the border of their face."""
     n_crossings = len(seen.crossings.side)
-    start = np.maximum(seen.links.start - n_crossings, -1) + 1
-    end = np.maximum(seen.links.end - n_crossings, -1) + 1
+    start = np.maximum(seen.face_segments.start - n_crossings, -1) + 1
+    end = np.maximum(seen.face_segments.end - n_crossings, -1) + 1
     inner = np.flatnonzero((start > 0) & (end > 0))
     if not len(inner):
         return inner
-    n = len(seen.landings.point) + 1
-    graph = coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(n, n))
-    _, label = connected_components(graph, directed=False)
+    n = len(seen.hits.point) + 1
+    _, label = connected(n, start, end)
     return inner[label[start[inner]] != label[0]]
 
 
 def _split(part: _Part, graph: Graph, seen: Trace, lonely: Ints) -> _Part | None:
-    """Split each face with lonely links into three; None when none can be."""
-    sheet, origin, corners = part
-    face, points, bary = _behind(sheet, graph, seen, lonely)
+    """Split each face with lonely segments into three; None when none can be."""
+    uv_mesh, origin, corners = part
+    face, points, bary = _behind(uv_mesh, graph, seen, lonely)
     if not len(face):
         return None
-    bary = kept_off_edges(bary, sheet.V[sheet.F[face]])
+    bary = kept_off_edges(bary, uv_mesh.V[uv_mesh.F[face]])
     middle = np.einsum("nk,nkj->nj", bary, corners[face])
-    V = np.concatenate([sheet.V, np.einsum("nk,nkd->nd", bary, sheet.V[sheet.F[face]])])
-    U = np.concatenate([sheet.U, points])
-    keep = np.ones(len(sheet.F), bool)
+    V = np.concatenate([uv_mesh.V, np.einsum("nk,nkd->nd", bary, uv_mesh.V[uv_mesh.F[face]])])
+    U = np.concatenate([uv_mesh.U, points])
+    keep = np.ones(len(uv_mesh.F), bool)
     keep[face] = False
     kept = np.flatnonzero(keep)
-    parts, F, F_uv, C = [kept], [sheet.F[kept]], [sheet.F_uv[kept]], [corners[kept]]
-    new, new_uv = len(sheet.V) + np.arange(len(face)), len(sheet.U) + np.arange(len(face))
+    parts, F, F_uv, C = [kept], [uv_mesh.F[kept]], [uv_mesh.F_uv[kept]], [corners[kept]]
+    new, new_uv = len(uv_mesh.V) + np.arange(len(face)), len(uv_mesh.U) + np.arange(len(face))
     for k in range(3):
         j = (k + 1) % 3
         parts.append(face)
-        F.append(np.stack([sheet.F[face, k], sheet.F[face, j], new], 1))
-        F_uv.append(np.stack([sheet.F_uv[face, k], sheet.F_uv[face, j], new_uv], 1))
+        F.append(np.stack([uv_mesh.F[face, k], uv_mesh.F[face, j], new], 1))
+        F_uv.append(np.stack([uv_mesh.F_uv[face, k], uv_mesh.F_uv[face, j], new_uv], 1))
         C.append(np.stack([corners[face, k], corners[face, j], middle], 1))
     of = np.concatenate(parts)
-    split = make_sheet(V, np.concatenate(F), U, np.concatenate(F_uv), sheet.chart[of])
+    split = make_uv_mesh(V, np.concatenate(F), U, np.concatenate(F_uv), uv_mesh.chart[of])
     return _Part(split, origin[of], np.concatenate(C))
 
 
-def _behind(sheet: Sheet, graph: Graph, seen: Trace, lonely: Ints) -> tuple[Ints, Ints, Floats]:
-    """Choose, in each face, a lonely link and a point that a corner sees through its middle.
+def _behind(uv_mesh: UvMesh, graph: Graph, seen: Trace, lonely: Ints) -> tuple[Ints, Ints, Floats]:
+    """Choose, in each face, a lonely segment and a point that a corner sees through its middle.
 
     Returns
     -------
@@ -145,10 +148,10 @@ def _behind(sheet: Sheet, graph: Graph, seen: Trace, lonely: Ints) -> tuple[Ints
     points : (f, 2) int64, in the plane
     bary : (f, 3) float64, the same in the face
     """
-    ends = graph.points[graph.segments[seen.links.segment[lonely]]]
+    ends = graph.points[graph.segments[seen.face_segments.segment[lonely]]]
     middle = ends.mean(axis=1)
-    face = seen.links.face[lonely]
-    corners = sheet.U[sheet.F_uv[face]].astype(float)
+    face = seen.face_segments.face[lonely]
+    corners = uv_mesh.U[uv_mesh.F_uv[face]].astype(float)
     off = np.linalg.norm(middle - corners.mean(axis=1), axis=1)
     order = np.lexsort((off, face))
     chosen = order[_first_of_runs(face[order])]

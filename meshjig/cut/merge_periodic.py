@@ -6,10 +6,10 @@ import numpy as np
 
 from meshjig.mesh.types import CutMesh, Outlines
 
-__all__ = ["fold"]
+__all__ = ["merge_periodic"]
 
 
-def fold(cut: CutMesh, outlines: Outlines) -> CutMesh:
+def merge_periodic(cut: CutMesh, outlines: Outlines) -> CutMesh:
     """Name cuts and points of copies after the first copy.
 
     On a periodic chart a curve over the closing line is drawn twice, a period apart, and either

@@ -5,15 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cut.edge_nodes import APART_MM, EdgeNodes
-from meshjig.cut.face_segments import Links
-from meshjig.cut.inner_halfedges import Ring
-from meshjig.cut.point_hits import Landings
+from meshjig.cut.inner_halfedges import Ring, Wiring
 from meshjig.cut.predicates import orient
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import Sheet, forward
+from meshjig.cut.trace import FaceSegments, PointHits
+from meshjig.cut.uv_mesh import UvMesh, forward
 from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["Places", "corner_frames", "half_edge_places", "kept_off_edges", "landing_weights"]
+__all__ = ["Places", "corner_frames", "half_edge_places", "hit_weights", "kept_off_edges"]
 
 NEAREST = 0.02  # no barycentric coordinate is kept larger than this, however small the face
 
@@ -21,24 +20,24 @@ NEAREST = 0.02  # no barycentric coordinate is kept larger than this, however sm
 class Places(NamedTuple):
     """The start of every half-edge: its vertex, and where that lies in the face.
 
-    Vertices are numbered: those of the sheet, then edge nodes, then landings.
+    Vertices are numbered: those of the UV mesh, then edge nodes, then hits.
     """
 
     vertex: Ints  # (h,)
     row: Ints  # (h,), the face as a place in the ring's faces
     bary: Floats  # (h, 3)
-    first_landing: int
+    first_hit: int
     n_vertices: int
 
 
-def landing_weights(sheet: Sheet, graph: Graph, landings: Landings) -> Floats:
+def hit_weights(uv_mesh: UvMesh, graph: Graph, hits: PointHits) -> Floats:
     """Give barycentric coordinates of outline points in faces, kept off the faces' edges; (l, 3)."""
-    face = landings.face
-    u, v, w = (sheet.U[sheet.F_uv[face, k]] for k in range(3))
-    p = graph.points[landings.point]
+    face = hits.face
+    u, v, w = (uv_mesh.U[uv_mesh.F_uv[face, k]] for k in range(3))
+    p = graph.points[hits.point]
     weights = np.stack([orient(v, w, p), orient(w, u, p), orient(u, v, p)], 1)
     bary = weights / np.where(orient(u, v, w) == 0, 1, orient(u, v, w))[:, None]
-    return kept_off_edges(bary, sheet.V[sheet.F[face]])
+    return kept_off_edges(bary, uv_mesh.V[uv_mesh.F[face]])
 
 
 def kept_off_edges(bary: Floats, corners: Floats) -> Floats:
@@ -51,43 +50,47 @@ def kept_off_edges(bary: Floats, corners: Floats) -> Floats:
 
 
 def half_edge_places(
-    sheet: Sheet, ring: Ring, nodes: EdgeNodes, links: Links, weights: Floats, slots: Ints, leaving: Ints
+    uv_mesh: UvMesh,
+    ring: Ring,
+    nodes: EdgeNodes,
+    face_segments: FaceSegments,
+    weights: Floats,
+    wiring: Wiring,
 ) -> Places:
-    """Place the starts of all half-edges: of the ring, of links forth, of links back.
+    """Place the starts of all half-edges: of the ring, of segments forth, of segments back.
 
     Parameters
     ----------
-    weights : (l, 3) float64, from landing_weights
-    slots, leaving : the ring half-edges and the link half-edges that start at the same node
+    weights : (l, 3) float64, from hit_weights
     """
-    nr, nl, nx = len(ring.next), len(links.face), len(nodes.of_crossing)
-    tail = np.concatenate([links.start, links.end])
+    nr, nl, nx = len(ring.next), len(face_segments.face), len(nodes.of_crossing)
+    tail = np.concatenate([face_segments.start, face_segments.end])
     vertex = np.empty(nr + 2 * nl, np.int64)
-    row = np.concatenate([ring.face, ring.row[links.face], ring.row[links.face]])
+    row = np.concatenate([ring.face, ring.row[face_segments.face], ring.row[face_segments.face]])
     bary = np.zeros((len(vertex), 3))
 
     at_node = np.flatnonzero(ring.node >= 0)
     node, corner = ring.node[at_node], ring.corner[at_node]
-    runs_up = forward(sheet.F[ring.faces])[3 * ring.face[at_node] + corner]
+    runs_up = forward(uv_mesh.F[ring.faces])[3 * ring.face[at_node] + corner]
     along = np.where(runs_up, nodes.along[node], 1 - nodes.along[node])
-    vertex[:nr] = sheet.F[ring.faces[ring.face], ring.corner]
-    vertex[at_node] = len(sheet.V) + node
+    vertex[:nr] = uv_mesh.F[ring.faces[ring.face], ring.corner]
+    vertex[at_node] = len(uv_mesh.V) + node
     bary[np.arange(nr), ring.corner] = 1
     bary[at_node, corner] = 1 - along
     bary[at_node, (corner + 1) % 3] = along
 
-    landed = np.flatnonzero(tail >= nx)
-    vertex[nr + landed] = len(sheet.V) + len(nodes.edge) + tail[landed] - nx
-    bary[nr + landed] = weights[tail[landed] - nx]
-    vertex[leaving], bary[leaving] = vertex[slots], bary[slots]
-    first_landing = len(sheet.V) + len(nodes.edge)
-    return Places(vertex, row, bary, first_landing, first_landing + len(weights))
+    at_hit = np.flatnonzero(tail >= nx)
+    vertex[nr + at_hit] = len(uv_mesh.V) + len(nodes.edge) + tail[at_hit] - nx
+    bary[nr + at_hit] = weights[tail[at_hit] - nx]
+    vertex[wiring.leaving], bary[wiring.leaving] = vertex[wiring.slot], bary[wiring.slot]
+    first_hit = len(uv_mesh.V) + len(nodes.edge)
+    return Places(vertex, row, bary, first_hit, first_hit + len(weights))
 
 
-def corner_frames(sheet: Sheet, faces: Ints) -> Floats:
+def corner_frames(uv_mesh: UvMesh, faces: Ints) -> Floats:
     """Lay faces flat without stretch, (t, 3, 2) mm; a face without area becomes equilateral."""
-    a = sheet.V[sheet.F[faces, 0]]
-    d, e = sheet.V[sheet.F[faces, 1]] - a, sheet.V[sheet.F[faces, 2]] - a
+    a = uv_mesh.V[uv_mesh.F[faces, 0]]
+    d, e = uv_mesh.V[uv_mesh.F[faces, 1]] - a, uv_mesh.V[uv_mesh.F[faces, 2]] - a
     length = np.linalg.norm(d, axis=1)
     x = np.einsum("ij,ij->i", d, e) / np.maximum(length, 1e-300)
     y = np.sqrt(np.maximum(np.einsum("ij,ij->i", e, e) - x * x, 0))

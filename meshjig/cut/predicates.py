@@ -10,6 +10,7 @@ Edelsbrunner and Mücke, "Simulation of Simplicity", 1990.
 
 import numpy as np
 
+from meshjig.mesh.arrays import starts
 from meshjig.mesh.types import Bools, Ints
 
 __all__ = ["angular_order", "orient", "point_left_of_edge", "vertex_left_of_segment"]
@@ -67,7 +68,7 @@ def angular_order(node: Ints, d: Ints) -> Ints:
     """
     order = np.argsort(node, kind="stable")
     count = np.bincount(node)
-    start = np.cumsum(count) - count
+    start = starts(count)
     for degree in np.unique(count[count > 2]):  # two directions are in order either way
         rows = start[count == degree][:, None] + np.arange(degree)
         members = order[rows]

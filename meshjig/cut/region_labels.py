@@ -1,41 +1,43 @@
-"""Which label each part of the cut mesh has, and which parts hang together."""
+"""Which label each part of the cut mesh has, and which parts are connected."""
+
+from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from meshjig.cut.cycles import Cycles
-from meshjig.cut.face_segments import Links
 from meshjig.cut.inner_halfedges import Ring
 from meshjig.cut.predicates import orient, vertex_left_of_segment
 from meshjig.cut.snap import Graph
-from meshjig.cut.uv_mesh import Sheet
+from meshjig.cut.trace import FaceSegments
+from meshjig.cut.uv_mesh import UvMesh
+from meshjig.mesh.arrays import connected
+from meshjig.mesh.cycles import Cycles
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Ints
 
-__all__ = ["joined_over_seams", "label_at", "label_regions", "regions"]
+__all__ = ["Regions", "joined_over_seams", "label_at", "label_regions", "regions"]
 
 
-def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
-    """Join parts of faces over sides of the mesh; outlines and seams are walls.
+class Regions(NamedTuple):
+    """Faces, and parts of faces, that are connected."""
 
-    Returns
-    -------
-    n : int
-    of_face : (m,) int64, the region of untouched faces, -1 for cut ones
-    of_part : (c,) int64, the region of each part of the cut faces
-    """
-    m = len(sheet.F)
+    n: int
+    face: Ints  # (m,), the region of untouched faces, -1 for cut ones
+    part: Ints  # (c,), the region of each part of the cut faces
+
+
+def regions(uv_mesh: UvMesh, ring: Ring, parts: Cycles) -> Regions:
+    """Join parts of faces over sides of the mesh; outlines and seams are walls."""
+    m = len(uv_mesh.F)
     untouched = ring.row < 0
-    one, other = sheet.faces[:, 0], sheet.faces[:, 1]
+    one, other = uv_mesh.faces[:, 0], uv_mesh.faces[:, 1]
     inner = np.flatnonzero(other >= 0)
     both = inner[untouched[one[inner]] & untouched[other[inner]]]
     rows, cols = [one[both]], [other[both]]
 
     # ring half-edges on the same interval of the same side are neighbours
     half = 3 * ring.faces[ring.face] + ring.corner
-    side = sheet.side[half]
-    part = m + parts.of_half_edge[: len(half)]
+    side = uv_mesh.side[half]
+    part = m + parts.of_member[: len(half)]
     order = np.argsort(ring.interval, kind="stable")
     interval, its_side = ring.interval[order], side[order]
     twin = np.flatnonzero((interval[1:] == interval[:-1]) & (its_side[1:] == its_side[:-1]))
@@ -48,19 +50,17 @@ def regions(sheet: Sheet, ring: Ring, parts: Cycles) -> tuple[int, Ints, Ints]:
         rows.append(part[plain])
         cols.append(beyond[plain])
     r, c = np.concatenate(rows), np.concatenate(cols)
-    size = m + len(parts.size)
-    graph = coo_matrix((np.ones(len(r), np.int8), (r, c)), shape=(size, size))
-    _, label = connected_components(graph, directed=False)
+    _, label = connected(m + len(parts.size), r, c)
     used = np.append(untouched, np.ones(len(parts.size), bool))
     present = np.zeros(int(label.max(initial=-1)) + 1, bool)
     present[label[used]] = True
     number = np.cumsum(present) - 1
     label = np.where(used, number[label], -1)
-    return int(present.sum()), label[:m], label[m:]
+    return Regions(int(present.sum()), label[:m], label[m:])
 
 
 def label_regions(
-    graph: Graph, links: Links, n_ring: int, parts: Cycles, n: int, of_part: Ints
+    graph: Graph, face_segments: FaceSegments, n_ring: int, parts: Cycles, of: Regions
 ) -> tuple[Ints, Bools, int]:
     """Label regions by the outlines that bound them.
 
@@ -70,15 +70,17 @@ def label_regions(
     known : (n,) bool, False where no outline bounds the region
     n_conflicts : int, parts with an outline that says otherwise
     """
-    left, right = graph.left[links.segment], graph.right[links.segment]
-    said = np.concatenate([np.where(links.mirrored, right, left), np.where(links.mirrored, left, right)])
-    where = of_part[parts.of_half_edge[n_ring:]]
+    left, right = graph.left[face_segments.segment], graph.right[face_segments.segment]
+    said = np.concatenate(
+        [np.where(face_segments.mirrored, right, left), np.where(face_segments.mirrored, left, right)]
+    )
+    where = of.part[parts.of_member[n_ring:]]
     values, said = np.unique(said, return_inverse=True)
     key, count = np.unique(where * np.int64(max(len(values), 1)) + said, return_counts=True)
     region, value = key // max(len(values), 1), key % max(len(values), 1)
     order = np.lexsort((-value, count, region))
-    label = np.zeros(n, np.int64)
-    known = np.zeros(n, bool)
+    label = np.zeros(of.n, np.int64)
+    known = np.zeros(of.n, bool)
     label[region[order]] = values[value[order]]  # the last word, said most often, stays
     known[region] = True
     return label, known, int((values[said] != label[where]).sum()) if len(said) else 0
@@ -102,10 +104,7 @@ def joined_over_seams(F: Ints, label: Ints, region: Ints) -> Ints:
     h = np.flatnonzero(twin > np.arange(len(twin)))
     here, there = h // 3, twin[h] // 3
     alike = (region[here] != region[there]) & (label[here] == label[there]) & (label[here] >= 0)
-    pairs = region[here[alike]], region[there[alike]]
-    graph = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(n, n))
-    _, joined = connected_components(graph, directed=False)
-    return joined.astype(np.int64)[region]
+    return connected(n, region[here[alike]], region[there[alike]])[1][region]
 
 
 def label_at(graph: Graph, q: Ints) -> int:

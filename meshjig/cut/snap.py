@@ -61,7 +61,7 @@ def snap(uv: Floats, outlines: Outlines) -> tuple[Ints, Graph]:
     """
     everything = np.concatenate([uv, outlines.points])
     if not np.isfinite(everything).all():
-        raise CutError("a chart or an outline has coordinates that are no numbers", hint="flatten it anew")
+        raise CutError("a chart or an outline has coordinates that are no numbers", hint="flatten it again")
     low = everything.min(axis=0, initial=np.inf)
     extent = float((everything.max(axis=0, initial=-np.inf) - low).max())
     exponent = FINEST if extent <= 0 else min(FINEST, int(np.floor(np.log2((LIMIT - 2 * STEP) / extent))))

@@ -3,24 +3,22 @@
 import numpy as np
 
 from meshjig.errors import CutError
+from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import barycentric, face_areas
-from meshjig.mesh.types import GAP, CutMesh, Floats, Ints, Mesh
+from meshjig.mesh.types import GAP, CutMesh, Floats, Ints
 
-__all__ = ["carry_pieces"]
+__all__ = ["transfer_pieces"]
 
 
-def carry_pieces(
-    mesh: Mesh, without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh
-) -> tuple[Ints, Ints]:
+def transfer_pieces(without_gap: CutMesh, piece_of_face: Ints, with_gap: CutMesh) -> tuple[Ints, Ints]:
     """Name the parts that are left between gaps after the pieces of the same surface without gaps.
 
     Parameters
     ----------
-    mesh : Mesh, which both were cut from
     without_gap : CutMesh
     piece_of_face : (m,) int64, for the faces of without_gap
-    with_gap : CutMesh, whose gap faces have the label GAP
+    with_gap : CutMesh, of the same mesh; its gap faces have the label GAP
 
     Returns
     -------
@@ -61,11 +59,7 @@ def carry_pieces(
 
 def _piece_at(cut: CutMesh, piece_of_face: Ints, parent: Ints, points: Floats) -> Ints:
     """Find the pieces of points in given faces of the mesh, (k,) int64."""
-    order = np.argsort(cut.parent, kind="stable")
-    start = np.searchsorted(cut.parent[order], parent)
-    count = np.searchsorted(cut.parent[order], parent, side="right") - start
-    row = np.repeat(np.arange(len(parent)), count)
-    face = order[np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count) + np.repeat(start, count)]
+    row, face = equal_pairs(parent, cut.parent)
     inside = barycentric(cut.V, cut.F, face, points[row]).min(1)
     best = np.lexsort((inside, row))
     last = np.append(np.flatnonzero(np.diff(row[best])), len(best) - 1)

@@ -1,4 +1,4 @@
-"""The surface and its flat image as one sheet: edges in space, sides in the plane.
+"""The surface and its flat image as one UV mesh: edges in space, sides in the plane.
 
 Over a seam, two sides in the plane belong to one edge in space.
 """
@@ -10,10 +10,10 @@ import numpy as np
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["Sheet", "following", "forward", "make_sheet"]
+__all__ = ["UvMesh", "corner_of_side", "following", "forward", "make_uv_mesh"]
 
 
-class Sheet(NamedTuple):
+class UvMesh(NamedTuple):
     """A mesh with its flat image on the grid.
 
     Edges run from the vertex with the lower number, and sides from the UV point with the lower
@@ -46,7 +46,13 @@ def forward(F: Ints) -> Bools:
     return F.ravel() < following(F)
 
 
-def make_sheet(V: Floats, F: Ints, U: Ints, F_uv: Ints, chart: Ints) -> Sheet:
+def corner_of_side(uv_mesh: UvMesh, face: Ints, side: Ints) -> Ints:
+    """Give the corner of each face at which its half-edge along a side starts."""
+    sides = uv_mesh.side.reshape(-1, 3)
+    return np.where(sides[face, 0] == side, 0, np.where(sides[face, 1] == side, 1, 2))
+
+
+def make_uv_mesh(V: Floats, F: Ints, U: Ints, F_uv: Ints, chart: Ints) -> UvMesh:
     """Pair half-edges in space, and in the plane where no seam runs between them.
 
     Parameters
@@ -75,4 +81,4 @@ def make_sheet(V: Floats, F: Ints, U: Ints, F_uv: Ints, chart: Ints) -> Sheet:
     faces[side[upper], 1] = upper // 3
     S = np.stack([np.minimum(tail[h], head[h]), np.maximum(tail[h], head[h])], 1)
     agrees = forward(F)[h] == (tail[h] < head[h])
-    return Sheet(V, F, U, F_uv, chart, E, edge, S, side, faces, edge[h], agrees)
+    return UvMesh(V, F, U, F_uv, chart, E, edge, S, side, faces, edge[h], agrees)

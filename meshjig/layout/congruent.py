@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.cut import fold
+from meshjig.cut import merge_periodic
 from meshjig.layout.layout import Layout
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.boundary_loops import follow
@@ -194,7 +194,7 @@ def clashes(layout: Layout, tolerance: float) -> tuple[Ints, UniqueFacts]:
     edges : (k,) int64, as Knobs.edge counts them: drawn again, their borders would be unlike the rest
     facts : UniqueFacts
     """
-    cut = fold(layout.cut, layout.outlines)
+    cut = merge_periodic(layout.cut, layout.outlines)
     rims = borders(cut, layout.piece_of_face)
     alike = congruent_borders(cut, rims, tolerance)
     swaps = interchangeable(cut, rims, tolerance)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from meshjig.cells import CellMesh
-from meshjig.cut import Further, cut_further
+from meshjig.cut import ComposedCut, compose_cuts
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.measure import interpolate
-from meshjig.mesh.types import Atlas, CutMesh, Knobs, Mesh, Outlines, Stitching
+from meshjig.mesh.refinement import Refinement, unrefined
+from meshjig.mesh.types import Atlas, CutMesh, Knobs, Outlines, Stitching
 
 __all__ = ["Layout", "Parts", "affected_pieces", "recut"]
 
@@ -34,13 +34,16 @@ class Layout:
     @property
     def face_of_surface(self) -> Ints:
         """The face of the surface that every face of the cut mesh lies in, (m,) int64."""
-        return self.cut.parent if self.cells is None else self.cells.parent[self.cut.parent]
+        return self.refinement.parent[self.cut.parent]
 
-    def carried(self, X: Floats, surface: Mesh, cut: CutMesh) -> Floats:
+    @property
+    def refinement(self) -> Refinement:
+        """How the mesh of the atlas lies on the surface."""
+        return unrefined(self.atlas.mesh) if self.cells is None else self.cells
+
+    def carried(self, X: Floats, cut: CutMesh) -> Floats:
         """Carry what belongs to vertices of the surface, (n, d), to those of a cut mesh of this atlas."""
-        if self.cells is not None:
-            X = interpolate(X, surface.F, self.cells.vertex_face, self.cells.vertex_bary)
-        return interpolate(X, self.atlas.mesh.F, cut.vertex_face, cut.vertex_bary)
+        return cut.carry(self.refinement.carry(X))
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,7 @@ class Parts:
 
 def recut(
     layout: Layout, chosen: Ints, kept: Ints, second: CutMesh, piece_of_label: Ints
-) -> tuple[Layout, Further]:
+) -> tuple[Layout, ComposedCut]:
     """Take a further cut of some faces into a layout.
 
     Parameters
@@ -69,10 +72,10 @@ def recut(
     -------
     Layout
         Its knobs are those of the layout that was given.
-    Further
+    ComposedCut
         How the second cut was taken in.
     """
-    further = cut_further(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
+    further = compose_cuts(layout.atlas, layout.outlines, layout.cut, chosen, kept, second)
     label = np.zeros(int(second.region.max(initial=-1)) + 1, np.int64)
     label[second.region] = second.label
     known = layout.stitching.piece_of_region[: int(layout.cut.region.max(initial=-1)) + 1]

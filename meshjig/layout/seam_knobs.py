@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.cells import CellMesh, cell_atlas, knob_outlines
-from meshjig.cut import Further, fold, overlay
+from meshjig.cut import ComposedCut, merge_periodic, overlay
 from meshjig.layout.interlock import Interlock, interlock
 from meshjig.layout.layout import Layout, recut
 from meshjig.layout.seam_smoothing import smooth_seams
@@ -50,7 +50,7 @@ def add_seam_knobs(layout: Layout, options: Options, random: float, seed: int) -
         Of the same pieces. The stitching's facts tell how many borders lie on seams (seam_borders) and
         how many of those have a knob now (seam_knobs).
     """
-    locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+    locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
     size = float(np.sqrt(face_areas(layout.cut.V, layout.cut.F).sum() / layout.stitching.n_pieces))
     pairs = _plain_over_seams(layout, locks, LONG * size)
     layout, discs = smooth_seams(layout)
@@ -72,7 +72,7 @@ def add_seam_knobs(layout: Layout, options: Options, random: float, seed: int) -
             between=between,
         )
         log.info("seams: %s, flattened %s", knobs.facts, atlas.facts)
-        n_knobs = knobs.facts["knobs"]
+        n_knobs = knobs.facts.knobs
         n_segments = len(layout.outlines.segments)
         second = overlay(atlas, knobs.outlines)
         layout, further = recut(layout, chosen, kept, second, piece_of_cell)
@@ -115,7 +115,8 @@ def _as_cells(layout: Layout, discs: Bools, pairs: Ints) -> _AsCells:
     F, kept = compact(cut.F[chosen])
     cell = (np.cumsum(wanted) - 1)[piece[chosen]]
     mesh = Mesh(cut.V[kept], F)
-    cells = CellMesh(mesh, cut.parent[chosen], cut.vertex_face[kept], cut.vertex_bary[kept], cell)
+    places = cut.vertex_face[kept], cut.vertex_bary[kept]
+    cells = CellMesh(mesh, cut.of, cut.parent[chosen], *places, cell)
     return _AsCells(np.flatnonzero(wanted), cells, chosen, kept)
 
 
@@ -136,7 +137,7 @@ def _like_the_others(locks: Interlock, size: float, least_neck: float) -> float:
     return float(np.clip(max(head, OF_NECK * least_neck) / (HEAD * size), *SIZES))
 
 
-def _with_more(knobs: Knobs, more: Knobs, further: Further, n_segments: int) -> Knobs:
+def _with_more(knobs: Knobs, more: Knobs, further: ComposedCut, n_segments: int) -> Knobs:
     """Add knobs of the second outlines to those of the first, which have that many segments."""
     edge, on_none = knobs.edge, np.full(len(more.neck), -1)
     return Knobs(

@@ -11,8 +11,8 @@ from meshjig.cells.even_borders import Evened, Line, even_borders
 from meshjig.layout.congruent import borders
 from meshjig.layout.layout import Layout, recut
 from meshjig.mesh.arrays import Bools, Ints
-from meshjig.mesh.halfedges import Edges, compact, edge_keys, edges, next_halfedge
-from meshjig.mesh.types import CutMesh
+from meshjig.mesh.halfedges import Edges, compact, edge_keys, next_halfedge
+from meshjig.mesh.types import CutMesh, Mesh
 
 __all__ = ["smooth_seams"]
 
@@ -33,7 +33,7 @@ def smooth_seams(layout: Layout) -> tuple[Layout, Bools]:
     discs : (p,) bool, which pieces are discs
     """
     cut, n = layout.cut, layout.stitching.n_pieces
-    discs = shapes(cut.F, layout.piece_of_face, n, edges(cut.F)) == DISC
+    discs = shapes(cut.mesh, layout.piece_of_face, n) == DISC
     lines = [line for line in _seam_lines(layout) if discs[line.left] and discs[line.right]]
     for _ in range(TRIES):
         if not lines:
@@ -41,7 +41,7 @@ def smooth_seams(layout: Layout) -> tuple[Layout, Bools]:
         wanted = np.unique([(line.left, line.right) for line in lines])
         chosen = np.flatnonzero(np.isin(layout.piece_of_face, wanted))
         made = _evened(layout, chosen, lines)
-        good = shapes(made.F, made.cell, n, made.e) == DISC
+        good = shapes(made.mesh, made.cell, n) == DISC
         if good[wanted].all():
             return _taken_in(layout, chosen, made), discs
         lines = [line for line in lines if good[line.left] and good[line.right]]
@@ -78,16 +78,16 @@ def _evened(layout: Layout, chosen: Ints, lines: list[Line]) -> Evened:
     number = np.full(len(cut.V), -1)
     number[kept] = np.arange(len(kept))
     moved = [line._replace(vertex=number[line.vertex]) for line in lines]
-    return even_borders(cut.V[kept], F, layout.piece_of_face[chosen], moved)
+    return even_borders(Mesh(cut.V[kept], F), layout.piece_of_face[chosen], moved)
 
 
 def _taken_in(layout: Layout, chosen: Ints, made: Evened) -> Layout:
     """Put evened faces in the place of those that they were made from."""
-    F, kept = compact(layout.cut.F[chosen])
-    cuts = _new_borders(F, layout.piece_of_face[chosen], made)
+    kept = compact(layout.cut.F[chosen])[1]
+    cuts = _new_borders(layout.piece_of_face[chosen], made)
     second = CutMesh(
-        V=made.V,
-        F=made.F,
+        mesh=made.mesh,
+        of=made.of,
         parent=made.parent,
         label=made.cell,
         region=made.cell,
@@ -101,11 +101,11 @@ def _taken_in(layout: Layout, chosen: Ints, made: Evened) -> Layout:
     return recut(layout, chosen, kept, second, np.arange(layout.stitching.n_pieces))[0]
 
 
-def _new_borders(F: Ints, cell: Ints, made: Evened) -> Ints:
+def _new_borders(cell: Ints, made: Evened) -> Ints:
     """List the edges (c, 2) between two cells that were no such edges before, a cell on their left."""
     n = len(made.V)
-    ends = _between(made.F, made.cell, made.e)
-    return ends[~np.isin(edge_keys(ends, n), edge_keys(_between(F, cell, edges(F)), n))]
+    ends = _between(made.F, made.cell, made.mesh.edges)
+    return ends[~np.isin(edge_keys(ends, n), edge_keys(_between(made.of.F, cell, made.of.edges), n))]
 
 
 def _between(F: Ints, cell: Ints, e: Edges) -> Ints:

@@ -1,19 +1,33 @@
 """Lists of different lengths in one array, and who is connected with whom."""
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["Bools", "Floats", "Ints", "connected", "ragged", "ranks", "row_of", "starts"]
+__all__ = [
+    "Bools",
+    "Floats",
+    "Ints",
+    "connected",
+    "equal_pairs",
+    "next_in_loop",
+    "ragged",
+    "ranks",
+    "row_of",
+    "starts",
+]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+Numbers = TypeVar("Numbers", NDArray[np.int64], NDArray[np.float64])
 
 
-def starts(sizes: Ints) -> Ints:
-    """Give where each of several lists begins when they stand one after the other, (k,)."""
+def starts(sizes: Numbers) -> Numbers:
+    """Give where each of several lists, or stretches, begins when they stand one after the other, (k,)."""
     return np.cumsum(sizes) - sizes
 
 
@@ -52,3 +66,25 @@ def connected(n: int, a: Ints, b: Ints) -> tuple[int, Ints]:
     graph = coo_matrix((np.ones(len(a), np.int8), (a, b)), shape=(n, n))
     count, label = connected_components(graph, directed=False)
     return int(count), label.astype(np.int64)
+
+
+def next_in_loop(sizes: Ints) -> Ints:
+    """Give the place after each one in several closed lists, one after the other, (sum,).
+
+    >>> next_in_loop(np.array([3, 2])).tolist()
+    [1, 2, 0, 4, 3]
+    """
+    after = np.arange(1, int(np.sum(sizes)) + 1)
+    some = sizes > 0
+    first = starts(sizes)[some]
+    after[first + sizes[some] - 1] = first
+    return after
+
+
+def equal_pairs(a: Ints, b: Ints) -> tuple[Ints, Ints]:
+    """List all pairs (i, j) with a[i] equal to b[j], by i, then by j."""
+    order = np.argsort(b, kind="stable")
+    ordered = b[order]
+    first = np.searchsorted(ordered, a)
+    count = np.searchsorted(ordered, a, side="right") - first
+    return row_of(count), order[ragged(first, count)]

@@ -5,7 +5,7 @@ import numpy as np
 from meshjig.mesh.arrays import Bools, Ints, connected
 from meshjig.mesh.halfedges import compact, edges, next_halfedge
 
-__all__ = ["components", "fans", "is_disc"]
+__all__ = ["components", "fans", "is_disc", "label_components"]
 
 
 def components(F: Ints, wall: Bools | None = None, twin: Ints | None = None) -> tuple[int, Ints]:
@@ -66,3 +66,26 @@ def is_disc(F: Ints) -> bool:
     if np.bincount(border.ravel(), minlength=len(kept)).max(initial=0) > 2:
         return False
     return components(G)[0] == 1
+
+
+def label_components(label: Ints, beside: Ints) -> tuple[int, Ints]:
+    """Number the connected parts of every label.
+
+    Parameters
+    ----------
+    label : (m,) int64
+    beside : (m, 3) int64, the neighbours of each face, who have it as a neighbour in turn; -1 for none
+
+    Returns
+    -------
+    n : int
+    part : (m,), 0 to n - 1
+    """
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    joined = (beside >= 0) & (label[beside] == label[:, None])
+    start = np.append(0, np.cumsum(joined @ np.ones(3, np.int8)))
+    graph = csr_matrix((np.ones(start[-1]), beside[joined], start), shape=(len(label),) * 2)
+    n, part = connected_components(graph, connection="strong")  # without turning the matrix
+    return int(n), part

@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints
 
-__all__ = ["RayScene"]
+__all__ = ["Floats32", "Numbers", "RayScene"]
+
+Floats32 = NDArray[np.float32]
+Numbers = Floats | Floats32
 
 
 class RayScene:
@@ -29,7 +33,7 @@ class RayScene:
         self._scene = EmbreeScene(robust=robust)
         TriangleMesh(self._scene, V[F].astype(np.float32))
 
-    def first_face(self, origin: Floats, direction: Floats, reach: Floats | None = None) -> Ints:
+    def first_face(self, origin: Numbers, direction: Numbers, reach: Numbers | None = None) -> Ints:
         """Give the first face that each ray meets, -1 for none, (k,).
 
         Parameters
@@ -40,21 +44,21 @@ class RayScene:
         far = () if reach is None else (reach.astype(np.float32),)
         return np.asarray(self._scene.run(_single(origin), _single(direction), *far), np.int64)
 
-    def first_distance(self, origin: Floats, direction: Floats) -> Floats:
+    def first_distance(self, origin: Numbers, direction: Numbers) -> Floats:
         """Give how far each ray goes to the first face, in lengths of its direction; huge for none, (k,)."""
         return np.asarray(self._scene.run(_single(origin), _single(direction), query="DISTANCE"), np.float64)
 
-    def is_hidden(self, origin: Floats, direction: Floats, reach: Floats) -> Ints:
+    def is_hidden(self, origin: Numbers, direction: Numbers, reach: Numbers) -> Bools:
         """Tell which rays meet anything within their reach, (k,) bool."""
         found = self._scene.run(
             _single(origin), _single(direction), dists=reach.astype(np.float32), query="OCCLUDED"
         )
-        return found >= 0
+        return np.asarray(found >= 0)
 
-    def hits(self, origin: Floats, direction: Floats) -> dict[str, Any]:
+    def hits(self, origin: Numbers, direction: Numbers) -> dict[str, Any]:
         """Give all that Embree says of the first hit: primID, tfar, u, v, Ng; each (k,) or (k, 3)."""
         return self._scene.run(_single(origin), _single(direction), output=1)
 
 
-def _single(x: Floats) -> Any:
+def _single(x: Numbers) -> Any:
     return np.ascontiguousarray(x, np.float32)

@@ -8,7 +8,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import edge_lengths
 
-__all__ = ["distances", "edge_graph", "shortest_way", "symmetric"]
+__all__ = ["distances", "edge_graph", "path_back", "shortest_way", "symmetric"]
 
 
 def edge_graph(V: Floats, F: Ints) -> Any:
@@ -47,7 +47,12 @@ def shortest_way(graph: Any, sources: Ints, targets: Ints) -> Ints:
     at = int(targets[np.argmin(distance[targets])])
     if not np.isfinite(distance[at]):
         return np.zeros(0, np.int64)
-    way = [at]
-    while before[way[-1]] >= 0:
-        way.append(int(before[way[-1]]))
-    return np.array(way[::-1], np.int64)
+    return path_back(before, at)[::-1]
+
+
+def path_back(before: Ints, at: int) -> Ints:
+    """Follow predecessors (n,), negative for none, from a vertex back to its source, both included; (k,)."""
+    path = [at]
+    while before[path[-1]] >= 0:
+        path.append(int(before[path[-1]]))
+    return np.array(path, np.int64)

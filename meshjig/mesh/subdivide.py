@@ -11,7 +11,7 @@ from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import edge_lengths
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Mesh
 
-__all__ = ["refine_atlas", "refine_long_edges"]
+__all__ = ["refine", "refine_atlas", "refine_long_edges"]
 
 _ROUNDS = 64
 AnyAtlas = TypeVar("AnyAtlas", bound=Atlas)
@@ -33,15 +33,36 @@ def refine_long_edges(V: Floats, F: Ints, length: float) -> tuple[Floats, Ints]:
     V : (n', 3) float64, the given vertices first
     F : (m', 3) int64
     """
+    mesh, _ = refine(Mesh(V, F), length)
+    return mesh.V, mesh.F
+
+
+def refine(mesh: Mesh, length: float, *, shorter: bool = True) -> tuple[Mesh, Ints]:
+    """Split edges as `refine_long_edges` does, and tell which face of the mesh each face lies in.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    length : float, mm
+    shorter : bool
+        Whether the quad that is left of a face with two long edges is halved by its shorter diagonal.
+
+    Returns
+    -------
+    mesh : Mesh, the given one where no edge is longer
+    parent : (m',) int64
+    """
+    V, F = mesh
+    parent = np.arange(len(F))
     for _ in range(_ROUNDS):
         e = edges(F)
         long = edge_lengths(V, e.E) > length
         if not long.any():
             break
         middle, W = _middles(V, e.E, e.edge_of_halfedge, long)
-        parent, corner = _pattern(W, F, middle)
-        V, F = W, _split(F, middle, parent, corner)
-    return V, F
+        of, corner = _pattern(W, F, middle, shorter)
+        V, F, parent = W, _split(F, middle, of, corner), parent[of]
+    return (mesh if F is mesh.F else Mesh(V, F)), parent
 
 
 def refine_atlas(atlas: AnyAtlas, length: float) -> AnyAtlas:
@@ -86,7 +107,7 @@ def _split(F: Ints, middle: Ints, parent: Ints, corner: Ints) -> Ints:
     return np.take_along_axis(np.concatenate([F, middle], 1)[parent], corner, 1)
 
 
-def _pattern(V: Floats, F: Ints, middle: Ints) -> tuple[Ints, Ints]:
+def _pattern(V: Floats, F: Ints, middle: Ints, shorter: bool = True) -> tuple[Ints, Ints]:
     """Choose how faces fall into 1 to 4 by the middles of their sides, -1 where a side has none.
 
     Returns
@@ -102,10 +123,10 @@ def _pattern(V: Floats, F: Ints, middle: Ints) -> tuple[Ints, Ints]:
     a, b, c = corners.T
     ab, bc, ca = 3 + corners.T
     one, two, three = (n_split == k for k in (1, 2, 3))
-    # two sides split: a corner goes, and the rest, a quad, is halved by its shorter diagonal
+    # two sides split: a corner goes, and the rest, a quad, is halved by a diagonal, mostly the shorter
     A, B = (V[np.take_along_axis(F, corners, 1)[:, k]] for k in (0, 1))
     BC, CA = (V[np.take_along_axis(middle, corners, 1)[:, k]] for k in (1, 2))
-    short = np.linalg.norm(A - BC, axis=1) <= np.linalg.norm(B - CA, axis=1)
+    short = (np.linalg.norm(A - BC, axis=1) <= np.linalg.norm(B - CA, axis=1)) | (not shorter)
     first, second = two & short, two & ~short
     parts = [
         (n_split == 0, (a, b, c)),

@@ -7,11 +7,13 @@ from typing import Any
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.refinement import Refinement
 
 __all__ = [
     "GAP",
     "Atlas",
     "Bools",
+    "CutFacts",
     "CutMesh",
     "Floats",
     "Ints",
@@ -19,22 +21,11 @@ __all__ = [
     "Mesh",
     "Outlines",
     "RegionGraph",
-    "Scan",
     "StitchFacts",
     "Stitching",
 ]
 
 GAP = -1  # the label of faces that belong to no piece
-
-
-@dataclass(frozen=True)
-class Scan:
-    """What came out of a file: the mesh to work on, what was loaded, and what was done to it."""
-
-    mesh: Mesh
-    source: Any  # the trimesh.Trimesh as loaded; UVs, textures and colours are sampled from it
-    to_source: Floats  # (4, 4), takes mesh coordinates back to those of source
-    facts: dict[str, Any] = field(default_factory=dict)  # the report's "input"
 
 
 @dataclass(frozen=True)
@@ -86,24 +77,32 @@ class Knobs:
 
 
 @dataclass(frozen=True)
-class CutMesh:
-    """A mesh whose faces were cut along outlines; it conforms, over seams too.
+class CutFacts:
+    """What the overlay says of itself: the report's "cut"."""
 
-    The vertices of the mesh come first and keep their numbers.
-    """
+    crossings: int
+    zero_predicates: int  # answers that the symbolic shift gave
+    ties: int  # crossings of one edge whose order was decided with exact numbers
+    seam_merged: int  # vertices that cuts from both sides of a seam came to share
+    respaced: int  # edges on which vertices were moved apart
+    split_faces: int  # more faces, for outlines inside faces
+    untangled: int  # parts of faces whose corners had to be moved
+    steiner: int  # parts filled from their centre
+    label_conflicts: int  # parts with an outline that says otherwise
+    largest_part: int  # corners
 
-    V: Floats  # (n, 3)
-    F: Ints  # (m, 3)
-    parent: Ints  # (m,), the face of the mesh that a face was cut from
+
+@dataclass(frozen=True)
+class CutMesh(Refinement):
+    """A mesh whose faces were cut along outlines; it conforms, over seams too."""
+
     label: Ints  # (m,), the outlines' label
     region: Ints  # (m,), connected parts of one label, over seams too
-    vertex_face: Ints  # (n,), a face of the mesh that the vertex lies in
-    vertex_bary: Floats  # (n, 3), where it lies in that face
     point_vertex: Ints  # (p,), the vertex made for a point of the outlines, or -1 where it missed the mesh
     cuts: Ints  # (c, 2), edges along the outlines, in the direction of their segment
     cut_segment: Ints  # (c,), the segment of the outlines
     cut_param: Floats  # (c, 2), where the edge starts and ends on its segment, 0 to 1
-    facts: dict[str, Any] = field(default_factory=dict)
+    facts: CutFacts | None = None
 
 
 @dataclass(frozen=True)

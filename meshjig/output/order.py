@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.output.concatenate import together
+from meshjig.mesh.mesh import concatenate
 from meshjig.output.pictures.view import guess_up
 from meshjig.output.piece import Piece
 
@@ -49,7 +49,7 @@ def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]])
     """Order pieces from the bottom up, each on what is there already.
 
     The lowest piece is first; next is always the lowest of those that touch a piece placed before. Where
-    none does, the lowest that is left begins anew. Nothing makes sure that a piece can get to its place.
+    none does, the lowest that is left begins again. Nothing makes sure that a piece can get to its place.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]])
     """
     if not pieces:
         return []
-    V, F, piece_of_vertex, _ = together(pieces)
+    V, F, piece_of_vertex, _ = concatenate(pieces)
     height = np.bincount(piece_of_vertex, V @ guess_up(V, F)) / np.bincount(piece_of_vertex)
     lowest_first = np.argsort(height, kind="stable").tolist()
     row: list[int] = []

@@ -3,42 +3,51 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats
+from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
-from meshjig.output.piece import Piece
+from meshjig.output.piece import Piece, explode_pieces
+from meshjig.output.plates.printers import Nesting
+from meshjig.output.report import Report, write_report
 from meshjig.runtime.worker import Background
 
-__all__ = ["FORMATS", "save_puzzle"]
+__all__ = ["FORMATS", "Outputs", "save_puzzle"]
 
 FORMATS = ("stl", "ply", "3mf", "obj", "glb")
 CORE = "core"  # its folder
 WORTH_A_CHILD = 60_000  # faces; below, a child process takes longer to start than it saves
 
 
+@dataclass(frozen=True)
+class Outputs:
+    """What the folder of a puzzle holds beside the report."""
+
+    formats: Sequence[str] = ("stl", "3mf")  # of `FORMATS`
+    preview: bool = True  # preview.png
+    viewer: bool = True  # viewer.html
+    guide: bool = True  # guide.pdf
+    plate: str | None = None  # the pieces on plates too, see `parse_plate`
+    nest: Nesting = "fast"  # see `lay_out`
+    explode: float = 0.6  # how far apart the exploded pieces of the preview, and of a second GLB, are
+    turntable: bool = False  # turntable.gif
+
+
 def save_puzzle(
     directory: str | Path,
     pieces: Sequence[Piece],
     report: Mapping[str, Any],
+    outputs: Outputs | None = None,
     *,
-    formats: Sequence[str] = ("stl", "3mf"),
-    plane_curves: Sequence[Floats] = (),
-    space_curves: Sequence[Floats] = (),
-    preview: bool = True,
-    viewer: bool = True,
-    guide: bool = True,
-    plate: str | None = None,
-    nest: Literal["fast", "tight"] = "fast",
-    explode: float = 0.6,
-    turntable: bool = False,
+    curves: Curves | None = None,
     core: Sequence[Piece] = (),
-) -> dict[str, Any]:
+) -> Report:
     """Write a puzzle to a folder that appears whole or not at all.
 
     Parameters
@@ -47,15 +56,8 @@ def save_puzzle(
         An existing folder is replaced only when meshjig made it.
     pieces : sequence of Piece
     report : mapping, what report.json holds
-    formats : sequence of "stl", "ply", "3mf", "obj", "glb"
-    plane_curves : sequence of (k, 2) float64, mm; cut curves for SVG
-    space_curves : sequence of (k, 3) float64, mm; cut curves for OBJ and DXF
-    preview : bool, also draw preview.png
-    viewer : bool, also write viewer.html
-    guide : bool, also write guide.pdf
-    plate, nest : str, also lay the pieces on plates, see `write_plates`
-    explode : float, how far apart the exploded pieces of the preview, and of a second GLB, are
-    turntable : bool, also draw turntable.gif
+    outputs : Outputs
+    curves : Curves, the cuts, for SVG, OBJ and DXF
     core : sequence of Piece, what the puzzle is built up on, written to core/
 
     Returns
@@ -69,6 +71,8 @@ def save_puzzle(
     OptionError
         A format is unknown.
     """
+    outputs = outputs or Outputs()
+    formats = outputs.formats
     unknown = sorted({formats} if isinstance(formats, str) else set(formats) - set(FORMATS))
     if unknown:
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
@@ -77,77 +81,58 @@ def save_puzzle(
     inputs = [source] if source else []
     with (
         replace_folder(directory, inputs=inputs) as folder,
-        _drawn(folder, pieces, preview, turntable, explode) as pictures,
+        _drawn(folder, pieces, outputs) as pictures,
     ):
         with _lap(seconds, "write"):
-            _write_meshes(folder, pieces, formats, explode)
+            _write_meshes(folder, pieces, outputs)
             _write_core(folder, core)
-            _write_curves(folder, plane_curves, space_curves)
+            _write_curves(folder, curves or Curves())
         plates: dict[str, int] | None = None
-        if plate is not None:
+        if outputs.plate is not None:
             from meshjig.output.plates.printers import parse_plate
             from meshjig.output.plates.write_plates import write_plates
 
             with _lap(seconds, "plates"):
-                parts = [*pieces, *core]
-                laid = write_plates(
-                    folder, parts, parse_plate(plate), nest=nest, outer_normals=_normals(parts)
-                )
-            plates = {fact["name"]: fact["plate"] for fact in laid if fact["plate"]}
-            report = {**report, "plates": laid}
-        if viewer:
+                placed = write_plates(folder, [*pieces, *core], parse_plate(outputs.plate), nest=outputs.nest)
+            plates = {fact.name: fact.plate for fact in placed if fact.plate}
+            report = {**report, "plates": [asdict(fact) for fact in placed]}
+        if outputs.viewer:
             from meshjig.output.viewer.page import FILE, write_viewer
 
             with _lap(seconds, "viewer"):
                 write_viewer(folder / FILE, pieces, report, plates=plates, core=core)
-        if guide:
+        if outputs.guide:
             with _lap(seconds, "guide"):
                 _write_guide(folder, pieces, report, plates, pictures)
         seconds |= pictures.result()
-        from meshjig.output.files.report_file import write_report
-
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written
 
 
 @contextmanager
-def _drawn(
-    folder: Path, pieces: Sequence[Piece], preview: bool, turntable: bool, explode: float
-) -> Iterator[Background]:
+def _drawn(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> Iterator[Background]:
     """Draw pictures beside the caller, who asks for the seconds they took once they are needed."""
     small = sum(len(piece.F) for piece in pieces) < WORTH_A_CHILD
-    none = not (preview or turntable)
-    child = Background(_draw, folder, list(pieces), preview, turntable, explode, alone=small or none)
+    none = not (outputs.preview or outputs.turntable)
+    child = Background(_draw, folder, list(pieces), outputs, alone=small or none)
     try:
         yield child
     finally:
         child.cancel()
 
 
-def _draw(
-    folder: Path, pieces: Sequence[Piece], preview: bool, turntable: bool, explode: float
-) -> dict[str, float]:
+def _draw(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> dict[str, float]:
+    from meshjig.output.pictures.preview import write_preview, write_turntable
+
     seconds: dict[str, float] = {}
-    if preview:
-        from meshjig.output.pictures.preview import preview as draw
-
+    if outputs.preview:
         with _lap(seconds, "preview"):
-            draw(pieces, folder / "preview.png", apart=explode)
-    if turntable:
-        from meshjig.output.pictures.turntable import write_turntable
-
+            write_preview(folder / "preview.png", pieces, apart=outputs.explode)
+    if outputs.turntable:
         with _lap(seconds, "turntable"):
             write_turntable(folder / "turntable.gif", pieces)
     return seconds
-
-
-def _normals(pieces: Sequence[Piece]) -> Floats | None:
-    """Give the outer normals of all pieces, zero where one is not known; None where none is."""
-    if all(piece.outer_normal is None for piece in pieces):
-        return None
-    zero: Floats = np.zeros(3)
-    return np.array([zero if piece.outer_normal is None else piece.outer_normal for piece in pieces])
 
 
 def _write_guide(
@@ -158,8 +143,7 @@ def _write_guide(
     pictures: Background,
 ) -> None:
     """Write the guide, with the picture of the preview once that is there, if it is to be."""
-    from meshjig.output.guide.cover import cover_of_preview
-    from meshjig.output.guide.guide import FILE, write_guide
+    from meshjig.output.guide.guide import FILE, cover_of_preview, write_guide
 
     def cover() -> NDArray[np.uint8] | None:
         pictures.result()
@@ -176,17 +160,16 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
     seconds[name] = time.perf_counter() - start
 
 
-def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str], explode: float) -> None:
-    if {"stl", "ply"} & set(formats):
+def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> None:
+    from meshjig.output.files.mesh_files import write_glb, write_obj, write_ply, write_stl
+
+    formats = set(outputs.formats)
+    if {"stl", "ply"} & formats:
         (folder / "pieces").mkdir()
     if "ply" in formats:
-        from meshjig.output.files.ply import write_ply
-
         for piece in pieces:
             write_ply(folder / "pieces" / f"{piece.name}.ply", piece)
     if "stl" in formats:
-        from meshjig.output.files.stl import write_stl
-
         for piece in pieces:
             write_stl(folder / "pieces" / f"{piece.name}.stl", piece.V, piece.F, piece.name)
     if "3mf" in formats:
@@ -194,33 +177,26 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], formats: Sequence[str],
 
         write_3mf(folder / "puzzle.3mf", pieces)
     if "obj" in formats:
-        from meshjig.output.files.obj import write_obj
-
         write_obj(folder / "puzzle.obj", pieces)
     if "glb" in formats:
-        from meshjig.output.files.glb import write_glb
-        from meshjig.output.pictures.explosion import explode_pieces
-
         write_glb(folder / "puzzle.glb", pieces)
-        write_glb(folder / "exploded.glb", explode_pieces(pieces, explode))
+        write_glb(folder / "exploded.glb", explode_pieces(pieces, outputs.explode))
 
 
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:
     if not core:
         return
-    from meshjig.output.files.stl import write_stl
+    from meshjig.output.files.mesh_files import write_stl
 
     (folder / CORE).mkdir()
     for part in core:
         write_stl(folder / CORE / f"{part.name}.stl", part.V, part.F, part.name)
 
 
-def _write_curves(folder: Path, plane: Sequence[Floats], space: Sequence[Floats]) -> None:
-    if not (len(plane) or len(space)):
+def _write_curves(folder: Path, curves: Curves) -> None:
+    if not (len(curves.plane) or len(curves.space)):
         return
-    from meshjig.output.files.curve_files import write_dxf, write_obj_lines, write_svg
-
     (folder / "curves").mkdir()
-    write_svg(folder / "curves" / "cuts.svg", plane)
-    write_obj_lines(folder / "curves" / "cuts.obj", space)
-    write_dxf(folder / "curves" / "cuts.dxf", space)
+    write_svg(folder / "curves" / "cuts.svg", curves.plane)
+    write_obj_lines(folder / "curves" / "cuts.obj", curves.space)
+    write_dxf(folder / "curves" / "cuts.dxf", curves.space)

@@ -8,18 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.types import Bools, Floats, Ints, Mesh
+from meshjig.mesh.mesh import Mesh, concatenate
 
-__all__ = ["Coat", "coats", "colour_of_vertex"]
+__all__ = ["Texture", "colour_of_vertex", "textures"]
 
 _FACING = 0.5  # cosine between a face and the surface under it; less, and it is a wall
 _SWATCH = 8  # pixels a side for a piece's own colour, below the scan's picture
 
 
 @dataclass(frozen=True)
-class Coat:
+class Texture:
     """What the faces of one piece show: the scan's picture outside, the piece's own colour elsewhere."""
 
     outer: Bools  # (m,)
@@ -28,14 +29,14 @@ class Coat:
     image: Any = None  # PIL.Image, the same for all pieces; holds a swatch of every piece's colour
 
 
-def coats(
+def textures(
     solids: Sequence[tuple[Floats, Ints]],
     colours: Floats,
     surface: Mesh,
     source: Any,
     to_source: Floats,
     depth: tuple[float, float],
-) -> list[Coat] | None:
+) -> list[Texture] | None:
     """Carry the picture of a scan over to the pieces, by the closest point of the surface it came with.
 
     Parameters
@@ -49,12 +50,12 @@ def coats(
 
     Returns
     -------
-    list of Coat, or None where the source has no picture
+    list of Texture, or None where the source has no picture
     """
     picture = _Picture.of(source)
     if picture is None:
         return None
-    V, F, piece = _joined(solids)
+    V, F, _, piece = concatenate([Mesh(*solid) for solid in solids])
     middle, normal = V[F].mean(1), unit(area_vectors(V, F))
     distance, below, _ = _closest(middle, surface.V, surface.F)
     facing = np.einsum("ij,ij->i", normal, unit(area_vectors(surface.V, surface.F))[below]) > _FACING
@@ -64,25 +65,25 @@ def coats(
     rgb[outer] = picture.colours(face, corners)
     uv, image = picture.with_swatches(colours, piece, outer, face, corners)
     parts = np.split(np.arange(len(F)), np.cumsum([len(G) for _, G in solids])[:-1])
-    return [Coat(outer[p], rgb[p], None if uv is None else uv[p], image) for p in parts]
+    return [Texture(outer[p], rgb[p], None if uv is None else uv[p], image) for p in parts]
 
 
-def colour_of_vertex(F: Ints, coat: Coat) -> Floats:
+def colour_of_vertex(F: Ints, texture: Texture) -> Floats:
     """Give vertices the mean colour of their outer corners, and their piece's own where they have none.
 
     Parameters
     ----------
     F : (m, 3) int64
-    coat : Coat
+    texture : Texture
 
     Returns
     -------
     (n, 3) float64, sRGB, 0 to 1
     """
     n = int(F.max(initial=-1)) + 1
-    weight = np.repeat(np.where(coat.outer, 1.0, 1e-9), 3)
+    weight = np.repeat(np.where(texture.outer, 1.0, 1e-9), 3)
     total = np.bincount(F.ravel(), weight, n)
-    rgb = coat.rgb.reshape(-1, 3)
+    rgb = texture.rgb.reshape(-1, 3)
     return np.stack([np.bincount(F.ravel(), weight * rgb[:, k], n) for k in range(3)], 1) / total[:, None]
 
 
@@ -170,20 +171,12 @@ class _Picture:
         return np.where((uv < 0) | (uv > 1), uv % 1.0, uv) if repeats else np.clip(uv, 0.0, 1.0)
 
 
-def _joined(solids: Sequence[tuple[Floats, Ints]]) -> tuple[Floats, Ints, Ints]:
-    size = np.array([len(V) for V, _ in solids])
-    first = np.cumsum(size) - size
-    V = np.concatenate([V for V, _ in solids])
-    F = np.concatenate([F + start for (_, F), start in zip(solids, first, strict=True)])
-    return V, F, np.repeat(np.arange(len(solids)), [len(F) for _, F in solids])
-
-
 def _moved(points: Floats, matrix: Floats) -> Floats:
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def _closest(points: Floats, V: Floats, F: Ints) -> tuple[Floats, Ints, Floats]:
-    """Give the distance to a mesh, the face that is nearest, and the nearest point."""
+    """The distance to a mesh, the face that is nearest, and the nearest point."""
     import igl
 
     square, face, nearest = igl.point_mesh_squared_distance(points, V, F)[:3]

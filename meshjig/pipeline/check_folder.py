@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from meshjig.check import add_failures, judge, judge_core
-from meshjig.output.files.expectations import read_asked, read_missing
-from meshjig.output.files.puzzle_files import read_puzzle_files
+from meshjig.output.files.read_pieces import read_puzzle_files
+from meshjig.output.report import read_expectations, read_missing
 
 __all__ = ["rejudge"]
 
@@ -36,7 +36,7 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
         Nothing found, or a file that can't be read.
     """
     pieces, core, report = read_puzzle_files(paths)
-    asked = read_asked(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
+    asked = read_expectations(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
     verdict = judge(pieces, **asked)
     result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt

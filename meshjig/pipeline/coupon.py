@@ -100,9 +100,9 @@ def save_coupon(directory: str | Path, options: Options) -> dict[str, Any]:
     OutputError
         The folder can't be written, or holds something else.
     """
-    from meshjig.output.files.report_file import write_report
-    from meshjig.output.files.stl import write_stl
+    from meshjig.output.files.mesh_files import write_stl
     from meshjig.output.files.threemf import write_3mf
+    from meshjig.output.report import write_report
 
     pieces = make_coupon(options)
     size = np.ptp(np.concatenate([piece.V for piece in pieces]), axis=0)
@@ -166,12 +166,12 @@ def _draw(pieces: list[Piece], path: Path) -> None:
     """Draw the tiles as they lie, from above."""
     from PIL import Image
 
-    from meshjig.output.concatenate import together
+    from meshjig.mesh.mesh import concatenate
     from meshjig.output.pictures.render import render
     from meshjig.output.pictures.scene import scene_of
     from meshjig.output.pictures.view import view_of
 
-    V, F, _, of_face = together(pieces)
+    V, F, _, of_face = concatenate(pieces)
     colour = np.array([piece.colour for piece in pieces])[of_face]
     view = view_of(V, np.array([0.0, 0.0, 1.0]), 0.0, 65.0)
     view = replace(view, half=1.05 * view.half)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.charts import MappedAtlas
-from meshjig.cut import carry_pieces, cut_curves, fold, gap_outlines, overlay
+from meshjig.cut import cut_curves, gap_outlines, merge_periodic, overlay, transfer_pieces
 from meshjig.errors import OptionError
 from meshjig.layout.cells import cell_layout
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
@@ -20,11 +20,11 @@ from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.pieces import Pieces, piece_names
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
-from meshjig.mesh.types import Floats, Ints, Mesh, Scan
+from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import Options
 from meshjig.output.pictures.colours import colours
-from meshjig.output.plates.estimate import estimate
-from meshjig.output.texture import coats
+from meshjig.output.plates.printers import estimate
+from meshjig.output.texture import textures
 from meshjig.pipeline.extras import add_core, core_of, finished
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
@@ -33,7 +33,7 @@ from meshjig.pipeline.verify import judged
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.worker import Background
-from meshjig.scan import self_crossings
+from meshjig.scan import Scan, self_crossings
 from meshjig.solid import Shell, kerf, shell
 
 __all__ = ["make_puzzle"]
@@ -86,8 +86,9 @@ def make_puzzle(
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
-            sheets, scan.facts["self_crossings"], crossing = beside.result()
-            pieces, solid_facts = _solids(surface, layout, parts, sheets, options)
+            sheets, n_crossings, crossing = beside.result()
+            scan = replace(scan, facts=replace(scan.facts, self_crossings=n_crossings))
+            pieces, solid_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
             pieces, label_facts = finished(pieces, surface, sheets, options)
             core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
@@ -95,7 +96,7 @@ def make_puzzle(
         beside.cancel()
         raise
     with stages("check"):
-        locks = interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+        locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
         affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
@@ -124,9 +125,11 @@ def _dressed(pieces: Pieces, tints: Floats, outward: Floats, scan: Scan, options
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
     solids = [(V, F) for V, F in pieces]
-    dressed = coats(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
+    dressed = textures(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
-        Piece(name, V, F, tuple(tint), i + 1, coat=dressed[i] if dressed else None, outer_normal=outward[i])
+        Piece(
+            name, V, F, tuple(tint), i + 1, texture=dressed[i] if dressed else None, outer_normal=outward[i]
+        )
         for i, (name, (V, F), tint) in enumerate(zip(pieces.names, solids, tints.tolist(), strict=True))
     ]
 
@@ -161,7 +164,7 @@ def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> Mappe
     So a few long edges don't change the charts that `info` has shown.
     """
     if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
-        return chart(Scan(surface, scan.source, scan.to_source), options)
+        return chart(replace(scan, mesh=surface), options)
     return refine_atlas(chart(scan, options), longest)
 
 
@@ -184,17 +187,15 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
         atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
     )
     cut = overlay(atlas, band)
-    piece, specks = carry_pieces(atlas.mesh, layout.cut, layout.piece_of_face, cut)
+    piece, specks = transfer_pieces(layout.cut, layout.piece_of_face, cut)
     area = face_areas(cut.V, cut.F)
     return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 
 
-def _solids(
-    surface: Mesh, layout: Layout, parts: Parts, sheets: Shell, options: Options
-) -> tuple[Pieces, dict[str, Any]]:
+def _solids(layout: Layout, parts: Parts, sheets: Shell, options: Options) -> tuple[Pieces, dict[str, Any]]:
     """Give the pieces their thickness."""
     cut = parts.cut
-    outer, D = (layout.carried(X, surface, cut) for X in (sheets.outer, sheets.D))
+    outer, D = (layout.carried(X, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
     report = told(sheets.facts) | told(facts)

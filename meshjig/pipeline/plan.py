@@ -8,9 +8,8 @@ import numpy as np
 
 from meshjig.mesh.measure import face_areas
 from meshjig.options import Options
-from meshjig.output.plates.estimate import estimate_plates, estimate_volume
-from meshjig.output.plates.printers import parse_plate
-from meshjig.output.plates.write_plates import GAP
+from meshjig.output.plates.lay_out import GAP
+from meshjig.output.plates.printers import estimate_plates, estimate_volume, parse_plate
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 
@@ -33,7 +32,7 @@ def plan_puzzle(mesh: Any, options: Options) -> dict[str, Any]:
         "model": {"faces", "size_mm": [x, y, z], "area_mm2"}; "layout"; "pieces": int, asked for;
         "piece_size_mm": edge of a square as large as a piece; "thickness_mm"; "clearance_mm";
         "plate": str; "plates": int; "material": {"volume_mm3", "grams", "hours"}, see
-        `meshjig.output.plates.estimate.estimate_volume`.
+        `meshjig.output.plates.printers.estimate_volume`.
 
     Raises
     ------

@@ -6,8 +6,8 @@ import numpy as np
 
 from meshjig.errors import OptionError
 from meshjig.options import Options
+from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import parse_plate
-from meshjig.output.plates.write_plates import GAP
 from meshjig.tiling.registry import get_family
 from meshjig.tiling.unit import edge_ends
 

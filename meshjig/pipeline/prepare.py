@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,12 @@ import numpy as np
 
 from meshjig.charts import MappedAtlas, build_atlas
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Mesh, Scan
+from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.output.files.report_file import write_report
 from meshjig.output.folder import replace_folder, reserve_folder
+from meshjig.output.report import write_report
 from meshjig.pipeline.report import meshjig_version
-from meshjig.scan import read_scan
+from meshjig.scan import Scan, read_scan
 from meshjig.scan.fill import fill_holes
 
 __all__ = ["atlas", "clean_scan", "describe_charts"]
@@ -95,8 +96,8 @@ def clean_scan(mesh: Any, options: Options) -> Scan:
     )
     diameter = _widest_hole(scan.mesh, options) if options.fill_holes is None else options.fill_holes
     filled = fill_holes(scan.mesh.V, scan.mesh.F, diameter)
-    facts = {**scan.facts, "filled_holes": filled.facts}
-    return Scan(Mesh(filled.V, filled.F), scan.source, scan.to_source, facts)
+    facts = replace(scan.facts, filled_holes=filled.facts)
+    return replace(scan, mesh=Mesh(filled.V, filled.F), facts=facts)
 
 
 def _widest_hole(mesh: Mesh, options: Options) -> float:

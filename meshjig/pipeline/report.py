@@ -12,10 +12,11 @@ from meshjig.check import Verdict, area_cv, area_error
 from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout, Parts
 from meshjig.layout.outer_gap import outer_gap
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.measure import face_areas, mesh_volume, sums
 from meshjig.mesh.pieces import Pieces
-from meshjig.mesh.types import Floats, Scan
 from meshjig.options import Options
+from meshjig.scan import Scan
 
 __all__ = ["assemble_report", "meshjig_version", "told"]
 
@@ -79,11 +80,11 @@ def assemble_report(
     return {
         "meshjig": meshjig_version(),
         "kind": "puzzle",
-        "input": scan.facts,
+        "input": scan.facts.as_dict(),
         "options": options.model_dump(),
         "charts" if layout.cells is None else "cells": layout.atlas.facts
-        | ({} if layout.cells is None else layout.cells.facts),
-        "cut": cut.facts,
+        | (asdict(layout.cells.facts) if layout.cells and layout.cells.facts else {}),
+        "cut": asdict(cut.facts) if cut.facts else {},
         "stitching": told(layout.stitching.facts),
         "solid": solid_facts,
         "pieces": _pieces(n, area, pieces, locks, options),

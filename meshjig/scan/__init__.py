@@ -2,13 +2,14 @@
 
 from meshjig.mesh.intersections import self_crossings
 from meshjig.scan.load import load
-from meshjig.scan.read import describe, read_scan
+from meshjig.scan.read import Scan, ScanFacts, describe, read_scan
 from meshjig.scan.repair import repair
-from meshjig.scan.resolution import decimate
 from meshjig.scan.resurface import resurface
-from meshjig.scan.scale import to_millimetres
+from meshjig.scan.scale import decimate, to_millimetres
 
 __all__ = [
+    "Scan",
+    "ScanFacts",
     "decimate",
     "describe",
     "load",

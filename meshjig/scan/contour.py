@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, sums, unit
-from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.field import Field, steps
 
 __all__ = ["Contour", "contour"]
@@ -56,7 +56,7 @@ def contour(field: Field) -> Contour:
 
 
 def _crossings(field: Field) -> tuple[Floats, Ints]:
-    """Give where grid edges cross the surface, (e, 3), and the four cubes around each, (e, 4)."""
+    """Where grid edges cross the surface, (e, 3), and the four cubes around each, (e, 4)."""
     points, quads = [], []
     for axis in range(3):
         x, u, v = (np.eye(3, dtype=np.int64)[(axis + k) % 3] for k in range(3))
@@ -82,7 +82,7 @@ def _planes(field: Field, points: Floats) -> tuple[Floats, Floats]:
 
 
 def _toward_planes(cube: Ints, at: Ints, foot: Floats, normal: Floats, middle: Floats) -> Floats:
-    """Give the least-squares step from each cube's middle to its planes, (c, 3)."""
+    """The least-squares step from each cube's middle to its planes, (c, 3)."""
     n = normal[at]
     height = np.einsum("kd,kd->k", n, foot[at] - middle[cube])
     A = _sums(cube, np.einsum("ki,kj->kij", n, n).reshape(-1, 9), len(middle)).reshape(-1, 3, 3)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import edges
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, face_areas, interpolate, unit
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.rays import RayScene
 
 __all__ = ["turn_by_sight"]
 
@@ -36,26 +36,20 @@ def turn_by_sight(V: Floats, F: Ints) -> Ints:
     Takayama, Jacobson, Kavan and Sorkine-Hornung, "A Simple Method for Correcting Facet Orientations in
     Polygon Meshes Based on Ray Casting", 2014.
     """
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
-
-    n, component = components(F)
-    twin = edges(F).twin
-    sheets = np.unique(component[np.flatnonzero(twin == np.arange(len(twin))) // 3])
+    mesh = Mesh(V, F)
+    component = mesh.component_of_face
+    sheets = np.unique(component[mesh.borders // 3])
     if not len(sheets):
         return F
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, V[F].astype(np.float32))
+    scene = RayScene(V, F, robust=False)
     extent = float(np.ptp(V, axis=0).max())
-    turned = np.zeros(n, bool)
+    turned = np.zeros(mesh.n_components, bool)
     for sheet in sheets:
         P, N, ray = _rays(V, F[component == sheet])
         seen = []
         for side in (1, -1):
-            hit = scene.run(
-                (P + side * _SKIN * extent * N).astype(np.float32), (side * ray).astype(np.float32), output=1
-            )
-            out = hit["geomID"] < 0
+            hit = scene.hits(P + side * _SKIN * extent * N, side * ray)
+            out = hit["primID"] < 0
             seen.append((out.sum(), hit["tfar"][~out].sum()))
         turned[sheet] = seen[1] > seen[0]
     F = F.copy()

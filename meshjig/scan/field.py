@@ -6,14 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.subdivide import refine_long_edges
-from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["CORNERS", "Field", "follow", "signed_field", "steps"]
+__all__ = ["CORNERS", "Field", "follow", "signed_field", "steps", "well_composed"]
+
 
 CORNERS = np.array([[c & 1, c >> 1 & 1, c >> 2] for c in range(8)], np.int64)  # of a cube
 _NEAR = 2.0  # cubes, up to which a corner has its distance
 _MOST_OVER_HOLES = 0.25  # of the cubes: the surface is open, and need not be known
+
+_ROUNDS = 1000
+_SQUARES = np.array([[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]])
 
 
 class Field(NamedTuple):
@@ -74,8 +78,8 @@ def signed_field(V: Floats, F: Ints, cell: float) -> Field:
     """
     points, _ = refine_long_edges(V, F, cell)
     low = points.min(axis=0) - 3.49 * cell  # flat sides of a model don't fall on the grid
-    touched = np.unique(steps(np.floor((points - low) / cell).astype(np.int64)))
-    near = np.unique(touched[:, None] + steps(_offsets(-1, 2)))
+    met = np.unique(steps(np.floor((points - low) / cell).astype(np.int64)))
+    near = np.unique(met[:, None] + steps(_offsets(-1, 2)))
     key = np.unique(near[:, None] + steps(CORNERS))
     none = np.zeros(0, np.int64)
     return follow(_with_corners(Field(V, F, low, cell, none, np.zeros(0), near, none), key))
@@ -108,7 +112,7 @@ def _with_corners(field: Field, key: Ints) -> Field:
 
 
 def _values(field: Field, points: Floats) -> Floats:
-    """Give the distance with the winding number as its sign, so far as it is clear.
+    """The distance with the winding number as its sign, so far as it is clear.
 
     Over a hole the distance does not vanish: the value must go through 0 smoothly there.
     """
@@ -122,7 +126,7 @@ def _values(field: Field, points: Floats) -> Floats:
 
 
 def _crossed_cubes(field: Field) -> Ints:
-    """Give the cubes around all grid edges that cross the surface."""
+    """The cubes around all grid edges that cross the surface."""
     cubes = [np.zeros(0, np.int64)]
     for axis in range(3):
         key = field.key[field.crossed(axis)]
@@ -133,3 +137,50 @@ def _crossed_cubes(field: Field) -> Ints:
 
 def _offsets(first: int, end: int) -> Ints:
     return np.stack(np.meshgrid(*[np.arange(first, end)] * 3), -1).reshape(-1, 3)
+
+
+def well_composed(field: Field) -> Field:
+    """Fill a field, corner by corner, until the surface passes through every cube as one sheet.
+
+    A cube has more than one where on one of its sides the inside meets itself across a diagonal only, or
+    where two opposite corners differ from the other six. Of the outer corners there, the one nearest to
+    the surface is taken inside. What remains is a manifold with one vertex a cube.
+
+    Parameters
+    ----------
+    field : Field
+
+    Returns
+    -------
+    Field
+
+    References
+    ----------
+    Latecki, Eckhardt and Rosenfeld, "Well-Composed Sets", 1995.
+    """
+    for _ in range(_ROUNDS):
+        corner = field.at(field.cubes[:, None] + steps(CORNERS))
+        fill = _to_fill(field.value[corner])
+        bad = np.flatnonzero(fill >= 0)
+        if not len(bad):
+            break
+        value = field.value.copy()
+        value[corner[bad, fill[bad]]] = -1e-3 * field.cell
+        field = follow(field._replace(value=value))
+    return field
+
+
+def _to_fill(value: Floats) -> np.ndarray:
+    """The corner to fill of each cube (c, 8), -1 where it has one sheet."""
+    inside = value < 0
+    wanted: Bools = np.zeros_like(inside)
+    for square in _SQUARES:
+        a, b, c, d = inside[:, square].T
+        crossed = (a == c) & (b == d) & (a != b)
+        wanted[:, square] |= crossed[:, None]
+    opposite = inside == inside[:, ::-1]
+    count = inside.sum(axis=1)
+    lone = opposite.all(axis=1) & ((count == 2) | (count == 6))
+    wanted |= lone[:, None]
+    wanted &= ~inside
+    return np.where(wanted.any(axis=1), np.where(wanted, value, np.inf).argmin(axis=1), -1)

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import border_halfedges, edges, next_halfedge
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Bools, Floats, Ints
 from meshjig.scan.manifold import is_clean
 
-__all__ = ["Filled", "fill_holes"]
+__all__ = ["Filled", "FilledHoles", "fill_holes"]
 
 _SCRAP = 4.0  # a component is worth closing when its area is that of so many discs as wide as the hole
+
+
+@dataclass(frozen=True)
+class FilledHoles:
+    """The report's ``filled_holes``."""
+
+    up_to_mm: float
+    closed: int  # holes
+    area_mm2: float  # of the patches
+    left: int  # open borders that stay
 
 
 class Filled(NamedTuple):
@@ -22,7 +34,7 @@ class Filled(NamedTuple):
 
     V: Floats  # (n, 3), mm
     F: Ints  # (m, 3)
-    facts: dict[str, Any]
+    facts: FilledHoles
 
 
 def fill_holes(V: Floats, F: Ints, diameter: float) -> Filled:
@@ -39,19 +51,16 @@ def fill_holes(V: Floats, F: Ints, diameter: float) -> Filled:
     Returns
     -------
     Filled
-        facts: up_to_mm, closed (holes), area_mm2 (of the patches), left (open borders that stay).
     """
-    h = border_halfedges(F)
-    n_loops, loop = _loops(F, h)
-    facts: dict[str, Any] = {"up_to_mm": float(diameter), "closed": 0, "area_mm2": 0.0, "left": n_loops}
-    small = _is_hole(V, F, h, loop, n_loops, diameter)
-    if not small.any():
+    loops = sorted(border_loops(F), key=min)
+    facts = FilledHoles(float(diameter), closed=0, area_mm2=0.0, left=len(loops))
+    holes = [loop for loop, small in zip(loops, _are_holes(V, F, loops, diameter), strict=True) if small]
+    if not holes:
         return Filled(V, F, facts)
-    rims = [h[loop == k] for k in np.flatnonzero(small)]
     n = len(V)
     parts = []
-    for rim in rims:
-        patch, n_new = _disc(_in_order(F, rim), V, n)
+    for hole in holes:
+        patch, n_new = _disc(hole, V, n)
         parts.append(patch)
         n += n_new
     patches = np.concatenate(parts)
@@ -59,50 +68,26 @@ def fill_holes(V: Floats, F: Ints, diameter: float) -> Filled:
     if not is_clean(G, n):
         return Filled(V, F, facts)
     W = np.concatenate([V, _smoothly_placed(V, F, patches, n)])
-    left = _loops(G, border_halfedges(G))[0]
+    left = len(border_loops(G))
     area = float(face_areas(W, patches).sum())
-    return Filled(W, G, facts | {"closed": n_loops - left, "area_mm2": area, "left": left})
+    return Filled(W, G, replace(facts, closed=len(loops) - left, area_mm2=area, left=left))
 
 
-def _loops(F: Ints, h: Ints) -> tuple[int, Ints]:
-    """Number the border loops that half-edges h lie on: how many, and whose each is."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    if not len(h):
-        return 0, h
-    start, end = F.ravel()[h], F.ravel()[next_halfedge(h)]
-    vertices, number = np.unique(np.concatenate([start, end]), return_inverse=True)
-    rows, cols = number[: len(h)], number[len(h) :]
-    graph = coo_matrix((np.ones(len(h), np.int8), (rows, cols)), shape=(len(vertices), len(vertices)))
-    n, of_vertex = connected_components(graph, directed=False)
-    return int(n), of_vertex[rows].astype(np.int64)
-
-
-def _is_hole(V: Floats, F: Ints, h: Ints, loop: Ints, n_loops: int, diameter: float) -> Bools:
-    """Tell which loops are holes to be closed, (n_loops,)."""
+def _are_holes(V: Floats, F: Ints, loops: list[Ints], diameter: float) -> Bools:
+    """Tell which loops are holes to be closed, (l,)."""
     from scipy.spatial.distance import pdist
 
     n, component = components(F)
+    component_of_vertex = np.zeros(len(V), np.int64)
+    component_of_vertex[F] = component[:, None]
     area = np.bincount(component, face_areas(V, F), n)
-    hole = np.zeros(n_loops, bool)
-    length = np.linalg.norm(V[F.ravel()[next_halfedge(h)]] - V[F.ravel()[h]], axis=1)
-    girth = np.bincount(loop, length, n_loops)
-    for k in np.flatnonzero(girth <= np.pi * 2 * diameter):
-        mine = h[loop == k]
-        wide = float(pdist(V[F.ravel()[mine]]).max())
-        around = area[component[mine[0] // 3]]
-        hole[k] = wide <= diameter and around >= _SCRAP * np.pi / 4 * wide**2
+    hole = np.zeros(len(loops), bool)
+    for k, loop in enumerate(loops):
+        if np.linalg.norm(V[loop] - V[np.roll(loop, -1)], axis=1).sum() <= np.pi * 2 * diameter:
+            wide = float(pdist(V[loop]).max())
+            around = area[component_of_vertex[loop[0]]]
+            hole[k] = wide <= diameter and around >= _SCRAP * np.pi / 4 * wide**2
     return hole
-
-
-def _in_order(F: Ints, rim: Ints) -> Ints:
-    """Give the vertices of one border loop, as its half-edges run."""
-    following = dict(zip(F.ravel()[rim].tolist(), F.ravel()[next_halfedge(rim)].tolist(), strict=True))
-    walk = [int(F.ravel()[rim[0]])]
-    while (after := following[walk[-1]]) != walk[0]:
-        walk.append(after)
-    return np.array(walk)
 
 
 def _disc(rim: Ints, V: Floats, n: int) -> tuple[Ints, int]:
@@ -114,7 +99,8 @@ def _disc(rim: Ints, V: Floats, n: int) -> tuple[Ints, int]:
     from scipy.spatial import Delaunay
 
     step = np.linalg.norm(V[rim] - V[np.roll(rim, -1)], axis=1)
-    turn = 2 * np.pi * (np.cumsum(step) - step) / step.sum()
+    end = np.cumsum(step)
+    turn = 2 * np.pi * (end - step) / step.sum()
     circle = np.stack([np.cos(turn), np.sin(turn)], 1)
     spacing = 2 * np.pi / len(rim)
     i, j = (x.ravel() for x in np.meshgrid(*[np.arange(-len(rim), len(rim) + 1)] * 2))
@@ -138,14 +124,14 @@ def _smoothly_placed(V: Floats, F: Ints, patches: Ints, n: int) -> Floats:
     from scipy.sparse import coo_matrix, diags
     from scipy.sparse.linalg import spsolve
 
-    touched = np.zeros(n, bool)
-    touched[patches] = True
-    near = F[touched[F].any(1)]
+    affected = np.zeros(n, bool)
+    affected[patches] = True
+    near = F[affected[F].any(1)]
     E = edges(np.concatenate([near, patches])).E
     A = coo_matrix((np.ones(len(E)), E.T), shape=(n, n))
     A = (A + A.T).tocsr()
     degree = np.maximum(np.asarray(A.sum(1)).ravel(), 1)
-    bent = (diags(np.ones(n)) - diags(1 / degree) @ A)[touched]
+    bent = (diags(np.ones(n)) - diags(1 / degree) @ A)[affected]
     new, old = bent[:, len(V) :], bent[:, : len(V)]
     placed: Floats = spsolve((new.T @ new).tocsc(), -new.T @ (old @ V)).reshape(-1, 3)
     return placed

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import OutOfBounds
 from meshjig.runtime.read_ahead import ReadAhead
 from meshjig.scan.reading import FileMesh, flattened
@@ -26,7 +26,9 @@ class Loaded(NamedTuple):
     V: Floats  # (n, 3), in the units of the source
     F: Ints  # (m, 3)
     source: Any  # the Source, or the trimesh.Trimesh given, with UVs, textures and colours
-    facts: dict[str, Any]
+    file: str | None  # None for what came as arrays, or from trimesh
+    reader: str
+    notes: list[str]  # what of the file was left out, a sentence each
 
 
 def load(source: Any) -> Loaded:
@@ -42,8 +44,7 @@ def load(source: Any) -> Loaded:
     Returns
     -------
     Loaded
-        Checked for shape and finite numbers, not for topology; facts holds ``file``, ``reader`` and
-        ``notes``.
+        Checked for shape and finite numbers, not for topology.
 
     Raises
     ------
@@ -55,12 +56,14 @@ def load(source: Any) -> Loaded:
         source = ReadAhead(source)
     if isinstance(source, ReadAhead):
         read = _read(source)
-        facts = {"file": source.path, "reader": read.reader, "notes": read.notes}
-        return _checked(read.source, Path(source.path).name, facts)
+        V, F = _checked(read.source, Path(source.path).name)
+        return Loaded(V, F, read.source, source.path, read.reader, read.notes)
     if isinstance(source, tuple | list) and len(source) == 2:
-        return _checked(_from_arrays(*source), "the mesh", {"file": None, "reader": "arrays", "notes": []})
+        mesh: Any = _from_arrays(*source)
+        return Loaded(*_checked(mesh, "the mesh"), mesh, None, "arrays", [])
     if hasattr(source, "vertices") or hasattr(source, "geometry"):
-        return _checked(flattened(source), "the mesh", {"file": None, "reader": "trimesh", "notes": []})
+        mesh = flattened(source)
+        return Loaded(*_checked(mesh, "the mesh"), mesh, None, "trimesh", [])
     raise InputError(f"a {type(source).__name__} is no mesh", hint="give a path, a trimesh.Trimesh or (V, F)")
 
 
@@ -97,8 +100,8 @@ def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Source:
     return Source(V.astype(np.float64), F, Visual(None))
 
 
-def _checked(mesh: Any, name: str, facts: dict[str, Any]) -> Loaded:
-    """Give the arrays of a trimesh, if they are a surface."""
+def _checked(mesh: Any, name: str) -> tuple[Floats, Ints]:
+    """The arrays of a trimesh, if they are a surface."""
     V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64).reshape(-1, 3)
     F = np.array(getattr(mesh, "faces", np.zeros((0, 3))), np.int64).reshape(-1, 3)
     if not len(F):
@@ -120,7 +123,7 @@ def _checked(mesh: Any, name: str, facts: dict[str, Any]) -> Loaded:
             ids=bad[:100].tolist(),
         )
     _check_area(V[F], name)
-    return Loaded(V, F, mesh, facts)
+    return V, F
 
 
 def _check_range(F: Ints, n: int, name: str) -> None:

@@ -5,19 +5,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import Edges, edges, next_halfedge
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["Sheets", "is_clean", "make_manifold"]
+__all__ = ["ManifoldMesh", "is_clean", "make_manifold"]
 
 _ROUNDS = 100
 
 
-class Sheets(NamedTuple):
+class ManifoldMesh(NamedTuple):
     """A manifold mesh and what made it one."""
 
     V: Floats  # (n, 3)
@@ -42,12 +41,12 @@ def is_clean(F: Ints, n: int) -> bool:
     return bool(np.array_equal(origin, np.arange(n)))
 
 
-def make_manifold(V: Floats, F: Ints) -> Sheets:
+def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:
     """Pull apart what meets in too many faces.
 
     Around an edge with more than two faces, those that bound the same side of the material stay
     together, as two boxes that touch in an edge do; faces that are left over end there. Vertices are
-    then split by fan. An edge that two sheets still share, because they hang together at both its ends,
+    then split by fan. An edge that two sheets still share, because they are connected at both its ends,
     is given a middle of its own in each sheet.
 
     Parameters
@@ -57,7 +56,7 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
 
     Returns
     -------
-    Sheets
+    ManifoldMesh
     """
     e = edges(F)
     n_edges = int((e.n_faces > 2).sum())
@@ -71,11 +70,11 @@ def make_manifold(V: Floats, F: Ints) -> Sheets:
             break
         V, F = _with_middles(V, F, e, twin)
         e = edges(F)
-    return Sheets(V, F, n_edges, max(0, len(V) - n))
+    return ManifoldMesh(V, F, n_edges, max(0, len(V) - n))
 
 
 def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
-    """Give each half-edge's twin, also where more than two faces meet; itself where there is none."""
+    """Each half-edge's twin, also where more than two faces meet; itself where there is none."""
     twin = e.twin.copy()
     h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] > 2)
     if not len(h):
@@ -101,21 +100,12 @@ def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
 
 
 def _fans(F: Ints, twin: Ints) -> tuple[Ints, Ints]:
-    """Number vertices by fan: faces into the new vertices, and the old vertex of every new one."""
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    t = twin[h]
-    same = F.ravel()[h] == F.ravel()[t]
-    rows = np.concatenate([h, next_halfedge(h)])
-    cols = np.concatenate([np.where(same, t, next_halfedge(t)), np.where(same, next_halfedge(t), t)])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(3 * len(F), 3 * len(F)))
-    _, fan = connected_components(graph, directed=False)
-    # number the fans in the order of their old vertices: an already clean mesh keeps its numbers
-    _, first = np.unique(fan, return_index=True)
-    old = F.ravel()[first]
+    """Split vertices by fan, see `fans`, in their old order: a clean mesh keeps its numbers."""
+    G, old = fans(F, twin)
     order = np.argsort(old, kind="stable")
     number = np.empty(len(order), np.int64)
     number[order] = np.arange(len(order))
-    return number[fan].reshape(-1, 3), old[order]
+    return number[G], old[order]
 
 
 def _with_middles(V: Floats, F: Ints, e: Edges, twin: Ints) -> tuple[Floats, Ints]:

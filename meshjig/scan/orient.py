@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, face_areas
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Sides", "make_coherent", "turn_outward"]
 
@@ -48,7 +46,7 @@ def make_coherent(F: Ints, *, strict: bool = True) -> tuple[Ints, int]:
     Notes
     -----
     Each face stands twice in a graph, as it is and turned, and is linked to its neighbours' copies that
-    agree with it. A component is orientable when its two copies don't hang together.
+    agree with it. A component is orientable when its two copies are not connected.
     """
     twin = edges(F).twin
     h = np.flatnonzero(twin > np.arange(len(twin)))
@@ -60,8 +58,7 @@ def make_coherent(F: Ints, *, strict: bool = True) -> tuple[Ints, int]:
     f, g = h // 3, t // 3
     rows = np.concatenate([f, f + m])
     cols = np.concatenate([np.where(agree, g, g + m), np.where(agree, g + m, g)])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(2 * m, 2 * m))
-    n, label = connected_components(graph, directed=False)
+    n, label = connected(2 * m, rows, cols)
     label = label.reshape(2, m)
     one_sided = label[0] == label[1]
     if strict and one_sided.any():
@@ -116,7 +113,7 @@ def _with_border(F: Ints, n: int, component: Ints) -> Bools:
 
 
 def _volumes(V: Floats, F: Ints, n: int, component: Ints, open_: Bools) -> Floats:
-    """Give each component's signed volume; an open one is measured from the middle of its border."""
+    """Each component's signed volume; an open one is measured from the middle of its border."""
     twin = edges(F).twin
     h = np.flatnonzero(twin == np.arange(len(twin)))
     # closed: any origin does, one nearby is exact; open: cones over the border's middle close it
@@ -148,7 +145,7 @@ def _depth(V: Floats, F: Ints, n: int, component: Ints, open_: Bools) -> Ints:
 
 
 def _winding(points: Floats, triangles: Floats) -> Floats:
-    """Give the winding number of triangles (m, 3, 3) around each point.
+    """The winding number of triangles (m, 3, 3) around each point.
 
     References
     ----------

@@ -2,22 +2,64 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
-from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import border_halfedges, edges
+from meshjig.mesh.arrays import Floats
+from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.intersections import self_crossings
-from meshjig.mesh.types import Ints, Mesh, Scan
+from meshjig.mesh.mesh import Mesh
+from meshjig.scan.fill import FilledHoles
 from meshjig.scan.load import load
-from meshjig.scan.repair import repair
-from meshjig.scan.resolution import decimate
+from meshjig.scan.repair import Repairs, repair
+from meshjig.scan.resurface import ResurfaceFacts, resurfacing_cell
 from meshjig.scan.resurface import resurface as rebuild
-from meshjig.scan.resurface import resurfacing_cell
-from meshjig.scan.scale import to_millimetres
+from meshjig.scan.scale import decimate, to_millimetres
 
-__all__ = ["describe", "read_scan"]
+__all__ = ["Scan", "ScanFacts", "describe", "read_scan"]
+
+
+@dataclass(frozen=True)
+class ScanFacts:
+    """What a mesh is, and what was done to it: the report's ``input``."""
+
+    file: str | None
+    reader: str
+    notes: list[str]  # what of the file was left out, a sentence each
+    faces: int  # as loaded
+    components: int
+    borders: int  # open loops
+    genus: int  # summed over components
+    self_crossings: int | None  # None: not counted, or the test failed
+    repairs: Repairs
+    scale: float
+    size_mm: list[float]
+    units: str
+    moved_mm: list[float] | None
+    working_faces: int
+    decimated_from: int | None  # faces before
+    resurfaced: ResurfaceFacts | None  # None when it was not asked for
+    filled_holes: FilledHoles | None = None
+
+    def as_dict(self) -> Mapping[str, Any]:
+        """Give the facts as the report has them, without those of holes before any were looked for."""
+        facts = asdict(self)
+        if self.filled_holes is None:
+            del facts["filled_holes"]
+        return facts
+
+
+@dataclass(frozen=True)
+class Scan:
+    """What came out of a file: the mesh to work on, what was loaded, and what was done to it."""
+
+    mesh: Mesh
+    source: Any  # the Source as loaded, or a trimesh.Trimesh; UVs, textures and colours are sampled from it
+    to_source: Floats  # (4, 4), takes mesh coordinates back to those of source
+    facts: ScanFacts
 
 
 def read_scan(
@@ -41,12 +83,6 @@ def read_scan(
     Returns
     -------
     Scan
-        facts is the report's ``input``: ``file``, ``reader``, ``notes`` (what
-        of the file was left out, a sentence each), ``faces`` (as loaded), ``components``,
-        ``borders`` (open loops), ``genus`` (summed over components), ``self_crossings`` (None: not counted
-        here), ``repairs`` (see `repair`), ``scale``, ``size_mm``, ``units``, ``moved_mm``,
-        ``working_faces``, ``decimated_from`` (faces before, or None), ``resurfaced`` (see `resurface`; None
-        when it was not asked for).
 
     Raises
     ------
@@ -62,25 +98,33 @@ def read_scan(
     n_clean = len(F)
     if faces != "all":
         V, F = decimate(V, F, faces)
-    facts = {
-        **loaded.facts,
-        "faces": len(loaded.F),
-        **_topology(F),
-        "self_crossings": None,
-        "repairs": repairs,
-        **scaled.facts,
-        "working_faces": len(F),
-        "decimated_from": n_clean if len(F) < n_clean else None,
-        "resurfaced": resurfaced,
-    }
-    return Scan(
-        Mesh(np.ascontiguousarray(V), np.ascontiguousarray(F)), loaded.source, scaled.to_source, facts
+    mesh = Mesh(np.ascontiguousarray(V), np.ascontiguousarray(F))
+    n_borders = len(border_loops(F))
+    euler = len(V) - len(mesh.edges.E) + len(F)
+    facts = ScanFacts(
+        file=loaded.file,
+        reader=loaded.reader,
+        notes=loaded.notes,
+        faces=len(loaded.F),
+        components=mesh.n_components,
+        borders=n_borders,
+        genus=(2 * mesh.n_components - euler - n_borders) // 2,
+        self_crossings=None,
+        repairs=repairs,
+        scale=scaled.facts.scale,
+        size_mm=scaled.facts.size_mm,
+        units=scaled.facts.units,
+        moved_mm=scaled.facts.moved_mm,
+        working_faces=len(F),
+        decimated_from=n_clean if len(F) < n_clean else None,
+        resurfaced=resurfaced,
     )
+    return Scan(mesh, loaded.source, scaled.to_source, facts)
 
 
 def describe(
     source: Any, *, size: float | None = None, faces: int | Literal["all"] = 100_000, cavities: bool = False
-) -> dict[str, Any]:
+) -> ScanFacts:
     """Say what a mesh is and what would be done to it, without making a puzzle.
 
     Parameters
@@ -90,9 +134,8 @@ def describe(
 
     Returns
     -------
-    dict
-        The facts of `read_scan`, with ``self_crossings`` counted on the working mesh (None when the test
-        failed).
+    ScanFacts
+        Those of `read_scan`, with ``self_crossings`` counted on the working mesh (None when the test failed).
 
     Raises
     ------
@@ -101,27 +144,4 @@ def describe(
     """
     scan = read_scan(source, size=size, faces=faces, cavities=cavities)
     pairs = self_crossings(scan.mesh.V, scan.mesh.F)
-    return {**scan.facts, "self_crossings": None if pairs is None else len(pairs)}
-
-
-def _topology(F: Ints) -> dict[str, int]:
-    """Count components, border loops and handles of a manifold mesh."""
-    n, _ = components(F)
-    euler = int(F.max()) + 1 - len(edges(F).E) + len(F)
-    borders = _loops(F)
-    return {"components": n, "borders": borders, "genus": (2 * n - euler - borders) // 2}
-
-
-def _loops(F: Ints) -> int:
-    """Count border loops: one fan a vertex makes every border vertex part of one loop."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    h = border_halfedges(F)
-    if not len(h):
-        return 0
-    a, b = F.ravel()[h], F[h // 3, (h + 1) % 3]
-    vertices, number = np.unique(np.concatenate([a, b]), return_inverse=True)
-    a, b = number[: len(h)], number[len(h) :]
-    graph = coo_matrix((np.ones(len(h), np.int8), (a, b)), shape=(len(vertices), len(vertices)))
-    return int(connected_components(graph, directed=False)[0])
+    return replace(scan.facts, self_crossings=None if pairs is None else len(pairs))

@@ -11,12 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
+from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
-from meshjig.scan.native import import_pymeshlab
-from meshjig.scan.neighbours import resolver_for
-from meshjig.scan.pictures import PictureReader
+from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source, Visual, source_of
 from meshjig.scan.three_mf import read_3mf_mesh
 
@@ -141,7 +140,7 @@ def flattened(loaded: Any) -> Any:
 
 
 def _by_trimesh(path: Path, pictures: PictureReader) -> Source | None:
-    """Give a mesh, perhaps without faces, or None."""
+    """Read a mesh, perhaps without faces; None where it fails."""
     try:
         return source_of(flattened(load_by_trimesh(path, pictures)))
     except InputError:

@@ -2,24 +2,43 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.manifold import is_clean, make_manifold
 from meshjig.scan.orient import make_coherent, turn_outward
 from meshjig.scan.weld import drop_doubles, flip_flat, weld
 
-__all__ = ["Repaired", "repair"]
+__all__ = ["Repaired", "Repairs", "repair"]
 
 _WELD = 1e-7  # of the diagonal; float32 files are this exact
 _FLAT = 1e-7  # of the diagonal: height under which a face counts as flat
 _CRUMB = 1e-3  # of the area: components below it are dropped
+
+
+@dataclass(frozen=True)
+class Repairs:
+    """How often repair changed what: the report's ``repairs``."""
+
+    unused_vertices: int
+    merged_vertices: int
+    null_faces: int  # two corners in one place
+    duplicate_faces: int
+    flat_faces: int  # no area; flipped away
+    reoriented: int  # faces
+    non_manifold_edges: int
+    non_manifold_vertices: int
+    dropped_components: int  # crumbs under 1/1000 of the area
+    dropped_area_share: float
+    turned_inside_out: int  # components
+    cavities: int  # shells inside a solid
 
 
 class Repaired(NamedTuple):
@@ -27,7 +46,7 @@ class Repaired(NamedTuple):
 
     V: Floats  # (n, 3)
     F: Ints  # (m, 3)
-    changes: dict[str, Any]
+    changes: Repairs
 
 
 def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
@@ -45,69 +64,76 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
     Returns
     -------
     Repaired
-        changes counts, all int but the last: ``merged_vertices``, ``null_faces`` (two corners in one
-        place), ``flat_faces`` (no area; flipped away), ``duplicate_faces``, ``non_manifold_edges``,
-        ``non_manifold_vertices``, ``reoriented`` (faces), ``turned_inside_out`` (components),
-        ``dropped_components`` and ``dropped_area_share`` (crumbs under 1/1000 of the area), ``cavities``
-        (shells inside a solid), ``unused_vertices``.
 
     Raises
     ------
     InputError
         No faces are left, the mesh is a heap of loose crumbs, or the surface has one side only.
     """
-    n = len(V)
+    n_given = len(V)
     diagonal = float(np.linalg.norm(np.ptp(V[F].reshape(-1, 3), axis=0)))
     V, F = _used(V, F)
-    changes: dict[str, Any] = {"unused_vertices": n - len(V)}
-    V, F, changes["merged_vertices"] = weld(V, F, _WELD * diagonal)
-    F, changes["null_faces"], changes["duplicate_faces"] = drop_doubles(F)
-    F, changes["flat_faces"] = flip_flat(V, F, _FLAT * diagonal)
-    changes |= {"reoriented": 0, "non_manifold_edges": 0, "non_manifold_vertices": 0}
+    unused = n_given - len(V)
+    V, F, merged = weld(V, F, _WELD * diagonal)
+    F, null, duplicate = drop_doubles(F)
+    F, flat = flip_flat(V, F, _FLAT * diagonal)
     V, F = _used(V, F)
     clean = is_clean(F, len(V))
+    turned = crowded_edges = split_vertices = 0
     if not clean:
-        F, changes["reoriented"] = make_coherent(F, strict=False)
-        V, F, changes["non_manifold_edges"], changes["non_manifold_vertices"] = make_manifold(V, F)
-    V, F, dropped = _without_crumbs(V, F)
-    changes |= dropped
+        F, turned = make_coherent(F, strict=False)
+        V, F, crowded_edges, split_vertices = make_manifold(V, F)
+    crumb, n_crumbs, share = _crumbs(V, F)
+    if n_crumbs:
+        V, F = _used(V, F[~crumb])
     if not clean:
-        F, turned = make_coherent(F)
-        changes["reoriented"] += turned
+        F, turned_again = make_coherent(F)
+        turned += turned_again
     sides = turn_outward(V, F)
-    F, changes["turned_inside_out"] = sides.F, sides.turned
-    changes["cavities"] = components(F[sides.cavity])[0] if sides.cavity.any() else 0
-    if not cavities and sides.cavity.any():
-        V, F = _used(V, F[~sides.cavity])
+    F, cavity = sides.F, sides.cavity
+    n_cavities = components(F[cavity])[0] if cavity.any() else 0
+    if not cavities and cavity.any():
+        V, F = _used(V, F[~cavity])
     if not (clean or is_clean(F, len(V))):
         raise InputError(
             "the mesh is still no clean surface after repair",
             hint="repair it in a mesh editor, such as MeshLab",
         )
+    changes = Repairs(
+        unused_vertices=unused,
+        merged_vertices=merged,
+        null_faces=null,
+        duplicate_faces=duplicate,
+        flat_faces=flat,
+        reoriented=turned,
+        non_manifold_edges=crowded_edges,
+        non_manifold_vertices=split_vertices,
+        dropped_components=n_crumbs,
+        dropped_area_share=share,
+        turned_inside_out=sides.turned,
+        cavities=n_cavities,
+    )
     return Repaired(V, F, changes)
 
 
 def _used(V: Floats, F: Ints) -> tuple[Floats, Ints]:
-    """Give the mesh without unused vertices."""
+    """The mesh without unused vertices."""
     if not len(F):
         raise InputError("no faces are left after repair: all were points, lines or doubles")
     F, kept = compact(F)
     return V[kept], F
 
 
-def _without_crumbs(V: Floats, F: Ints) -> tuple[Floats, Ints, dict[str, Any]]:
-    """Give the mesh without components that are too small to matter."""
+def _crumbs(V: Floats, F: Ints) -> tuple[Bools, int, float]:
+    """Tell which faces are in components too small to matter, how many these are, and their share of area."""
     n, component = components(F)
     area = np.bincount(component, face_areas(V, F), n)
     total = float(area.sum())
     crumb = area < _CRUMB * total
     share = float(area[crumb].sum()) / total if total else 0.0
-    facts = {"dropped_components": int(crumb.sum()), "dropped_area_share": share}
-    if not crumb.any():
-        return V, F, facts
     if share > 0.5:
         raise InputError(
             f"the mesh is a heap of {n} loose parts, most of them under a thousandth of its area",
             hint="join them to one surface in a mesh editor, such as MeshLab",
         )
-    return *_used(V, F[~crumb[component]]), facts
+    return crumb[component], int(crumb.sum()), share

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.intersections import self_crossings
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Floats, Ints
 from meshjig.scan.contour import Contour, contour
 from meshjig.scan.facing import turn_by_sight
-from meshjig.scan.field import signed_field
+from meshjig.scan.field import signed_field, well_composed
 from meshjig.scan.repair import repair
-from meshjig.scan.well_composed import well_composed
 
-__all__ = ["Resurfaced", "resurface", "resurfacing_cell"]
+__all__ = ["Offset", "ResurfaceFacts", "Resurfaced", "resurface", "resurfacing_cell"]
 
 _FINEST = 1 / 300  # of the largest extent
 _FACES_A_CELL = 3.2  # faces that an area of one squared cell gets, at most
@@ -29,12 +29,31 @@ _STEP = 0.5  # of a leg on the way back, that a vertex goes then, or when its fa
 _PATIENCE = 8  # steps before the neighbours go back too
 
 
+@dataclass(frozen=True)
+class Offset:
+    """How far new vertices are from the old surface, mm; those over holes left out."""
+
+    median: float
+    p99: float
+    max: float
+
+
+@dataclass(frozen=True)
+class ResurfaceFacts:
+    """The report's ``resurfaced``."""
+
+    cell_mm: float
+    off_mm: Offset
+    capped_area_share: float  # of the new area, over holes
+    lost_area_share: float  # of the old area, neither near the new surface nor inside
+
+
 class Resurfaced(NamedTuple):
     """A closed surface without crossings, and how far it is from the old one."""
 
     V: Floats  # (n, 3)
     F: Ints  # (m, 3)
-    facts: dict[str, Any]
+    facts: ResurfaceFacts
 
 
 def resurface(V: Floats, F: Ints, cell: float, *, cavities: bool = False) -> Resurfaced:
@@ -54,9 +73,6 @@ def resurface(V: Floats, F: Ints, cell: float, *, cavities: bool = False) -> Res
     Returns
     -------
     Resurfaced
-        facts holds ``cell_mm``; ``off_mm``, the ``median``, ``p99`` and ``max`` distance of the new
-        vertices from the old surface, those over holes left out; ``capped_area_share``, of the new
-        area, over holes; ``lost_area_share``, of the old area, neither near the new surface nor inside.
 
     Raises
     ------
@@ -75,14 +91,12 @@ def resurface(V: Floats, F: Ints, cell: float, *, cavities: bool = False) -> Res
         raise _holes(field.over_holes)
     made = contour(well_composed(field))
     new, G, _ = repair(_uncrossed(made, cell), made.F, cavities=cavities)
-    off, capped, lost = _deviation(V, F, new, G, cell)
-    if capped > _MOST_CAPPED:
-        raise _holes(capped)
-    if lost > _MOST_LOST:
-        raise _too_open(f"{100 * lost:.0f} % of it would be lost")
-    return Resurfaced(
-        new, G, {"cell_mm": cell, "off_mm": off, "capped_area_share": capped, "lost_area_share": lost}
-    )
+    facts = _deviation(V, F, new, G, cell)
+    if facts.capped_area_share > _MOST_CAPPED:
+        raise _holes(facts.capped_area_share)
+    if facts.lost_area_share > _MOST_LOST:
+        raise _too_open(f"{100 * facts.lost_area_share:.0f} % of it would be lost")
+    return Resurfaced(new, G, facts)
 
 
 def resurfacing_cell(V: Floats, F: Ints, faces: int | Literal["all"]) -> float:
@@ -105,19 +119,19 @@ def resurfacing_cell(V: Floats, F: Ints, faces: int | Literal["all"]) -> float:
 
 
 def _uncrossed(made: Contour, cell: float) -> Floats:
-    """Give the vertices so that no two faces cross.
+    """Move vertices until no two faces cross.
 
     Those that are in the way go back in two legs: to the middle of the surface in their cube, then to the
     middle of the cube. Where all have come so far, none can cross.
     """
-    way = np.zeros((len(made.V), 1))
+    leg = np.zeros((len(made.V), 1))
     V, E, turn = made.V, edges(made.F).E, 0
-    while len(moved := _in_each_others_way(V, E, made, cell)) and way.min() < 2:
+    while len(moved := _in_each_others_way(V, E, made, cell)) and leg.min() < 2:
         if turn >= _PATIENCE:
             moved = np.unique(made.F[np.isin(made.F, moved).any(axis=1)])
-        way[moved] = np.minimum(way[moved] + _STEP, 2)
-        V = made.V + np.minimum(way, 1) * (made.middle - made.V)
-        V = V + np.maximum(way - 1, 0) * (made.centre - V)
+        leg[moved] = np.minimum(leg[moved] + _STEP, 2)
+        V = made.V + np.minimum(leg, 1) * (made.middle - made.V)
+        V = V + np.maximum(leg - 1, 0) * (made.centre - V)
         turn += 1
     return V
 
@@ -131,9 +145,7 @@ def _in_each_others_way(V: Floats, E: Ints, made: Contour, cell: float) -> Ints:
     return np.unique(np.concatenate([crossing, short[np.arange(len(short)), strayed]]))
 
 
-def _deviation(
-    V: Floats, F: Ints, new: Floats, G: Ints, cell: float
-) -> tuple[dict[str, float], float, float]:
+def _deviation(V: Floats, F: Ints, new: Floats, G: Ints, cell: float) -> ResurfaceFacts:
     """Say how far new vertices are from the old surface, and what shares of area are new and lost."""
     import igl
 
@@ -146,7 +158,7 @@ def _deviation(
     lost[lost] = np.asarray(igl.fast_winding_number(new, G, middle[lost])) < 0.5
     old = face_areas(V, F)
     shares = float(area[over_hole].sum() / area.sum()), float(old[lost].sum() / old.sum())
-    return {"median": median, "p99": high, "max": most}, *shares
+    return ResurfaceFacts(cell, Offset(median, high, most), *shares)
 
 
 def _holes(share: float) -> InputError:

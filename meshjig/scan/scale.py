@@ -1,19 +1,42 @@
-"""Give a mesh, whose file knows no units, its size in millimetres."""
+"""How large a mesh is in millimetres, which its file does not say, and how many faces it keeps."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
+from meshjig.errors import InputError
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.halfedges import compact
+from meshjig.scan.manifold import is_clean
+from meshjig.scan.repair import repair
 
-__all__ = ["Scaled", "to_millimetres"]
+__all__ = ["ScaleFacts", "Scaled", "decimate", "import_pymeshlab", "to_millimetres"]
+
 
 _PLAUSIBLE = (20.0, 500.0)  # mm; a model of such extent was most likely made in mm
 _DEFAULT = 150.0  # mm
 _FLOAT32 = 1e-6  # a model of 500 mm may come back from a file with 500.00002
 _FAR = 1000.0  # mm from the origin, where the float32 of an STL file is down to 0.0001
+
+_PACKAGES = {
+    "libOpenGL.so": "libopengl0",
+    "libGLU.so": "libglu1-mesa",
+    "libEGL.so": "libegl1",
+    "libGL.so": "libgl1",
+}
+
+
+@dataclass(frozen=True)
+class ScaleFacts:
+    """How a mesh came to its size."""
+
+    scale: float
+    size_mm: list[float]  # along x, y, z
+    units: str  # the rule that applied
+    moved_mm: list[float] | None  # None when it stayed where it was
 
 
 class Scaled(NamedTuple):
@@ -21,7 +44,7 @@ class Scaled(NamedTuple):
 
     V: Floats  # (n, 3), mm
     to_source: Floats  # (4, 4), takes them back
-    facts: dict[str, Any]
+    facts: ScaleFacts
 
 
 def to_millimetres(V: Floats, size: float | None = None) -> Scaled:
@@ -36,8 +59,6 @@ def to_millimetres(V: Floats, size: float | None = None) -> Scaled:
     Returns
     -------
     Scaled
-        facts holds ``scale``, ``size_mm`` [x, y, z], ``units`` (the rule that applied) and
-        ``moved_mm`` [x, y, z], or None when the model stayed where it was.
     """
     low, high = V.min(axis=0), V.max(axis=0)
     extent = float((high - low).max())
@@ -55,10 +76,72 @@ def to_millimetres(V: Floats, size: float | None = None) -> Scaled:
     to_source = np.eye(4)
     to_source[:3, :3] /= scale
     to_source[:3, 3] = -shift
-    facts = {
-        "scale": scale,
-        "size_mm": ((high - low) * scale).tolist(),
-        "units": units,
-        "moved_mm": (shift * scale).tolist() if far else None,
-    }
+    moved = (shift * scale).tolist() if far else None
+    facts = ScaleFacts(scale, ((high - low) * scale).tolist(), units, moved)
     return Scaled((V + shift) * scale, to_source, facts)
+
+
+def decimate(V: Floats, F: Ints, faces: int) -> tuple[Floats, Ints]:
+    """Simplify a mesh to a number of faces, keeping its topology and its borders.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, manifold
+    faces : int, target; topology may keep the mesh above it
+
+    Returns
+    -------
+    V : (n', 3) float64
+    F : (m', 3) int64, as clean as the input
+
+    Raises
+    ------
+    InputError
+        pymeshlab can't be imported, or fails.
+
+    References
+    ----------
+    Garland and Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
+    """
+    if len(F) <= faces:
+        return V, F
+    pymeshlab = import_pymeshlab()
+    meshes = pymeshlab.MeshSet(verbose=False)
+    meshes.add_mesh(pymeshlab.Mesh(V, F))
+    try:
+        meshes.meshing_decimation_quadric_edge_collapse(
+            targetfacenum=faces,
+            qualitythr=0.5,
+            preserveboundary=True,
+            preservenormal=True,
+            preservetopology=True,
+            planarquadric=True,
+        )
+    except pymeshlab.PyMeshLabException as error:
+        raise InputError(
+            f"the mesh can't be simplified to {faces} faces ({error})", hint="work on all its faces"
+        ) from None
+    mesh = meshes.current_mesh()
+    F, kept = compact(np.asarray(mesh.face_matrix(), np.int64))
+    V = np.asarray(mesh.vertex_matrix(), np.float64)[kept]
+    if not is_clean(F, len(V)):
+        V, F, _ = repair(V, F, cavities=True)
+    return V, F
+
+
+def import_pymeshlab() -> Any:
+    """Give the module pymeshlab.
+
+    Raises
+    ------
+    InputError
+        It can't be imported; the sentence names the system package that is missing.
+    """
+    try:
+        import pymeshlab
+    except ImportError as error:
+        package = next((name for library, name in _PACKAGES.items() if library in str(error)), None)
+        hint = f"install the system package {package} (apt-get install {package})" if package else str(error)
+        raise InputError("pymeshlab can't be imported", hint=hint) from None
+    return pymeshlab

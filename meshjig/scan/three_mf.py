@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
 
@@ -130,7 +130,7 @@ def _faces_placed(archive: zipfile.ZipFile) -> tuple[int, int]:
 
 
 def _named(tag: Any, file: str, word: bytes = b"objectid") -> tuple[str, bytes]:
-    """Give the file and the number of the object that a tag is, or is of."""
+    """The file and the number of the object that a tag is, or is of."""
     text = tag if isinstance(tag, bytes) else tag[0] if tag else b""
     number = re.search(rb"\b" + word + rb'\s*=\s*["\'](\d+)', text)
     path = re.search(rb"\bpath\s*=\s*[\"']/?([^\"']*)", text)

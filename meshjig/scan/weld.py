@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors
-from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["drop_doubles", "flip_flat", "weld"]
 
@@ -39,19 +39,13 @@ def weld(V: Floats, F: Ints, tolerance: float) -> tuple[Floats, Ints, int]:
         pairs = np.concatenate([pairs, _close_pairs(V, border, tolerance)])
     if not len(pairs):
         return V, F, 0
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    n = len(V)
-    graph = coo_matrix((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    _, group = connected_components(graph, directed=False)
-    _, first, number = np.unique(group, return_index=True, return_inverse=True)
-    order = np.argsort(np.argsort(first))  # keep the vertices in the order they came in
-    return V[np.sort(first)], order[number.ravel()][F].astype(np.int64), n - len(first)
+    n, group = connected(len(V), *pairs.T)
+    first = np.unique(group, return_index=True)[1]
+    return V[first], group[F], len(V) - n
 
 
 def _close_pairs(V: Floats, candidates: Ints, tolerance: float) -> Ints:
-    """Give enough pairs of candidates to connect all that lie within tolerance."""
+    """Enough pairs of candidates to connect all that lie within tolerance."""
     from scipy.spatial import cKDTree
 
     P = V[candidates] + 0.0  # -0 and 0 are one place
@@ -130,7 +124,7 @@ def _flat(V: Floats, F: Ints, height: float) -> tuple[Bools, Ints]:
 
 
 def _corner(F: Ints, h: Ints, k: int) -> Ints:
-    """Give the corner k steps after the start of half-edges."""
+    """The corner k steps after the start of half-edges."""
     return F[h // 3, (h + k) % 3]
 
 

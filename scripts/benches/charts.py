@@ -57,9 +57,9 @@ def _lscm(mesh) -> float:
     """Time one LSCM of the proxy that the charts are made on."""
     import igl
 
-    from meshjig.charts.transfer.proxy import proxy
+    from meshjig.charts.transfer.proxy import proxy_mesh
 
-    W, G = proxy(mesh.V, mesh.F)
+    W, G = proxy_mesh(mesh)
     far = np.array([0, np.linalg.norm(W - W[0], axis=1).argmax()])
     start = time.perf_counter()
     igl.lscm(W, G, far, np.array([[0.0, 0.0], [1.0, 0.0]]))

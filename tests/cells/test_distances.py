@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
-from meshjig.cells.distances import nearest, surface_graph, within
-from meshjig.mesh.halfedges import edges
+from meshjig.cells.distances import nearest, within
+from meshjig.cells.surface import surface_graph
+from meshjig.mesh.types import Mesh
 from tests.meshes import creased_box, cylinder, disc, sphere
 
 
@@ -26,9 +27,10 @@ EXACT = {
 
 @pytest.mark.parametrize(("shape", "exact"), EXACT.values(), ids=EXACT.keys())
 def test_distances_are_geodesic_within_a_few_per_cent(shape, exact):
-    V, F = shape
+    mesh = Mesh(*shape)
+    V = mesh.V
     sources = np.array([0, len(V) // 2])
-    source, distance = within(V, surface_graph(V, F, edges(F)), sources, 20.0)
+    source, distance = within(V, surface_graph(mesh), sources, 20.0)
     for k in range(2):
         row, column = np.nonzero(source == k)
         truth = exact(V, sources[k])
@@ -40,9 +42,10 @@ def test_distances_are_geodesic_within_a_few_per_cent(shape, exact):
 
 
 def test_every_source_in_reach_is_listed_nearest_first():
-    V, F = sphere(3000)
+    mesh = Mesh(*sphere(3000))
+    V = mesh.V
     sources = np.random.default_rng(0).choice(len(V), 30, replace=False)
-    source, distance = within(V, surface_graph(V, F, edges(F)), sources, 30.0, kept=30)
+    source, distance = within(V, surface_graph(mesh), sources, 30.0, kept=30)
     assert (np.diff(np.where(np.isfinite(distance), distance, 1e9), axis=1) >= 0).all()
     straight = np.linalg.norm(V[:, None] - V[sources], axis=2)
     listed = np.zeros((len(V), 30), bool)
@@ -53,8 +56,9 @@ def test_every_source_in_reach_is_listed_nearest_first():
 
 
 def test_vertices_out_of_reach_still_have_their_nearest_source():
-    V, F = disc(2000)
-    graph = surface_graph(V, F, edges(F))
+    mesh = Mesh(*disc(2000))
+    V = mesh.V
+    graph = surface_graph(mesh)
     sources = np.array([0, 5])
     source, distance = within(V, graph, sources, 4.0)
     assert (source[:, 0] >= 0).all()
@@ -63,10 +67,11 @@ def test_vertices_out_of_reach_still_have_their_nearest_source():
 
 
 def test_a_way_over_a_crease_costs_more_where_asked():
-    V, F = creased_box(3000)
+    mesh = Mesh(*creased_box(3000))
+    V = mesh.V
     places = np.array([[0, 0, 50], [50, 0, 0], [20, 20, 50]])
     top, side, other = np.linalg.norm(V[:, None] - places, axis=2).argmin(0).tolist()
-    graphs = [surface_graph(V, F, edges(F), bend) for bend in (0.0, 30.0)]
+    graphs = [surface_graph(mesh, bend) for bend in (0.0, 30.0)]
     plain, bent = (within(V, graph, np.array([top]), 200.0)[1][:, 0] for graph in graphs)
     assert bent[other] == pytest.approx(plain[other])
     assert bent[side] - plain[side] == pytest.approx(30 * np.radians(90 - 2 * 8), rel=0.02)

@@ -7,6 +7,7 @@ from meshjig.cells.discs import DISC, shapes
 from meshjig.cells.even_borders import Line, even_borders
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import face_areas, interpolate
+from meshjig.mesh.types import Mesh
 from tests.cut.graphs import delaunay, flat_sheet, wavy
 
 SIDE = 100.0
@@ -60,15 +61,18 @@ def test_a_jagged_border_is_drawn_as_the_curve_that_it_stands_for(seed):
     p, F = scattered(seed=seed)
     V, cell = wavy(p), three_cells(p, F)
     lines = [line_between(F, cell, 0, 1), line_between(F, cell, 0, 2)]
-    before = border(even_borders(V, F, cell, []), 0, 1), border(even_borders(V, F, cell, []), 1, 2)
-    made = even_borders(V, F, cell, lines)
+    before = (
+        border(even_borders(Mesh(V, F), cell, []), 0, 1),
+        border(even_borders(Mesh(V, F), cell, []), 1, 2),
+    )
+    made = even_borders(Mesh(V, F), cell, lines)
     y = np.linspace(0, 50, 1000)
     curve = wavy(np.stack([50 + 8 * np.sin(y / 16), y], 1))
     smooth = np.linalg.norm(np.diff(curve, axis=0), axis=1).sum()
     assert length(V, before[0]) > 1.08 * smooth
     assert length(made.V, border(made, 0, 1)) - smooth < 0.4 * (length(V, before[0]) - smooth)
-    was = shapes(F, cell, 3, edges(F)) == DISC
-    assert (shapes(made.F, made.cell, 3, edges(made.F)) == DISC)[was].all()
+    was = shapes(Mesh(p, F), cell, 3) == DISC
+    assert (shapes(made.mesh, made.cell, 3) == DISC)[was].all()
 
     # the surface is the same, cut finer, and nothing but the border has moved
     area = np.bincount(made.parent, face_areas(made.V, made.F), len(F))
@@ -85,7 +89,7 @@ def test_a_jagged_border_is_drawn_as_the_curve_that_it_stands_for(seed):
 def test_a_straight_border_stays_as_it_is():
     p, F = flat_sheet(20)
     V, cell = wavy(p), (p[F].mean(1)[:, 0] > 50).astype(np.int64)
-    made = even_borders(V, F, cell, [line_between(F, cell, 0, 1)])
+    made = even_borders(Mesh(V, F), cell, [line_between(F, cell, 0, 1)])
     np.testing.assert_array_equal(made.V, V)
     assert sorted(map(tuple, made.F.tolist())) == sorted(map(tuple, F.tolist()))
     np.testing.assert_array_equal(made.cell, cell[made.parent])
@@ -95,13 +99,13 @@ def test_a_line_with_other_borders_close_by_breaks_no_cell():
     p, F = scattered(3000)
     x = p[F].mean(1)[:, 0]
     stripe = np.clip((x - 42) // 5, 0, 3).astype(np.int64)  # two stripes two faces wide
-    lines = [line_between(F, stripe, k, k + 1) for k in range(3) if _whole(F, stripe, k)]
-    made = even_borders(wavy(p), F, stripe, lines)
-    before = shapes(F, stripe, 4, edges(F))
-    after = shapes(made.F, made.cell, 4, edges(made.F))
+    lines = [line_between(F, stripe, k, k + 1) for k in range(3) if _whole(p, F, stripe, k)]
+    made = even_borders(Mesh(wavy(p), F), stripe, lines)
+    before = shapes(Mesh(p, F), stripe, 4)
+    after = shapes(made.mesh, made.cell, 4)
     assert lines
     assert (after[before == DISC] == DISC).all()
 
 
-def _whole(F, cell, k):
-    return (shapes(F, cell, 4, edges(F))[[k, k + 1]] == DISC).all()
+def _whole(p, F, cell, k):
+    return (shapes(Mesh(p, F), cell, 4)[[k, k + 1]] == DISC).all()

@@ -141,7 +141,7 @@ def test_a_limb_thinner_than_a_cell_is_cut_along(n, bend):
     assert_sound(mesh, cells)
     assert abs(cells.n_cells - n) <= 1
     assert areas(cells).min() >= 0.5 * areas(cells).mean()
-    assert cells.facts["thin_limbs"]
+    assert cells.facts.thin_limbs
 
 
 def test_small_components_are_pieces_of_their_own():

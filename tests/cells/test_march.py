@@ -5,75 +5,59 @@ from hypothesis import strategies as st
 
 from meshjig.cells.discs import shapes
 from meshjig.cells.march import march
-from meshjig.cells.power import Field
-from meshjig.cells.refine import places, refine
+from meshjig.cells.power import PowerField
 from meshjig.cells.surface import surface
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import edges
-from meshjig.mesh.measure import face_areas, interpolate
-from tests.meshes import cylinder, disc, sphere, torus
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Mesh
+from tests.meshes import disc, torus
 
 
 def in_plane(V, points):
     """The exact values of cells around points: squared distances."""
     value = ((V[:, None] - points) ** 2).sum(2)
-    return Field(np.tile(np.arange(len(points)), (len(V), 1)), value)
+    return PowerField(np.tile(np.arange(len(points)), (len(V), 1)), value)
 
 
 def test_borders_lie_exactly_between_two_seeds_in_the_plane():
-    s = surface(*disc(3000))
+    s = surface(Mesh(*disc(3000)))
     points = np.array([[-20.0, 3, 0], [22, -7, 0]])
     field = in_plane(s.V, points)
     cut = march(s, field.owner, field)
-    e = cut.e
+    e = cut.mesh.edges
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     on = np.unique(e.E[e.edge_of_halfedge[h[cut.cell[h // 3] != cut.cell[e.twin[h] // 3]]]])
-    off = np.abs(np.diff(np.linalg.norm(cut.V[on][:, None] - points, axis=2), axis=1))
-    assert (
-        off.max() / 2 < 0.08 * 2.2
-    )  # edges are 2.2 mm: a border goes through a vertex that it passes close by
+    off = np.abs(np.diff(np.linalg.norm(cut.mesh.V[on][:, None] - points, axis=2), axis=1))
+    # edges are 2.2 mm: a border goes through a vertex that it passes close by
+    assert off.max() / 2 < 0.08 * 2.2
 
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**6), st.integers(2, 12))
 def test_cutting_keeps_the_surface_and_makes_no_sliver(seed, n):
     V, F = disc(400)
-    s = surface(V, F)
+    s = surface(Mesh(V, F))
     points = np.random.default_rng(seed).uniform(-50, 50, (n, 3)) * [1, 1, 0]
     field = in_plane(V, points)
     cut = march(s, field.owner, field)
-    assert (cut.V[: len(V)] == V).all()
-    area = face_areas(cut.V[:, :2], cut.F)
+    assert (cut.mesh.V[: len(V)] == V).all()
+    area = face_areas(cut.mesh.V[:, :2], cut.mesh.F)
     assert area.min() > 1e-3 * face_areas(V, F).min()
     assert np.bincount(cut.parent, area, len(F)) == pytest.approx(face_areas(V, F))
-    assert edges(cut.F).n_faces.max() == 2
-    assert (edges(cut.F).n_faces == 1).sum() >= (edges(F).n_faces == 1).sum()
-    assert len(cut.V) - len(edges(cut.F).E) + len(cut.F) == 1
+    assert edges(cut.mesh.F).n_faces.max() == 2
+    assert (edges(cut.mesh.F).n_faces == 1).sum() >= (edges(F).n_faces == 1).sum()
+    assert len(cut.mesh.V) - len(edges(cut.mesh.F).E) + len(cut.mesh.F) == 1
 
 
 def test_shapes_agree_with_one_at_a_time():
-    V, F = torus(2000)
-    e = edges(F)
+    mesh = Mesh(*torus(2000))
+    V, F = mesh
     middle = V[F].mean(1)
     ring = (middle[:, 0] > 20).astype(np.int64)
     quarter = np.where((middle[:, 0] > 0) & (middle[:, 1] > 0) & (middle[:, 2] > 0), 2, ring)
     for cell in (np.zeros(len(F), np.int64), ring, quarter):
         n = int(cell.max()) + 2  # the last one is empty
-        found = shapes(F, cell, n, e)
+        found = shapes(mesh, cell, n)
         assert [bool(f == 1) for f in found] == [is_disc(F[cell == c]) for c in range(n)]
-    assert shapes(F, np.zeros(len(F), np.int64), 1, e).tolist() == [0]  # a whole torus has Euler number 0
-
-
-@pytest.mark.parametrize("shape", [sphere(200), cylinder(200), disc(50)], ids=["sphere", "tube", "sheet"])
-def test_refining_keeps_the_surface(shape):
-    V, F = shape
-    W, G, parent = refine(V, F, 5.0)
-    e = edges(G)
-    assert np.linalg.norm(W[e.E[:, 0]] - W[e.E[:, 1]], axis=1).max() <= 5.0
-    assert e.n_faces.max() == 2
-    assert np.bincount(parent, face_areas(W, G)) == pytest.approx(face_areas(V, F))
-    face, bary = places(V, F, W, G, parent)
-    assert np.abs(interpolate(V, F, face, bary) - W).max() < 1e-9
-    corner = np.take_along_axis(F[face[: len(V)]], bary[: len(V)].argmax(1)[:, None], 1)[:, 0]
-    assert (corner == np.arange(len(V))).all()
-    assert (bary[: len(V)].max(1) == 1).all()
+    assert shapes(mesh, np.zeros(len(F), np.int64), 1).tolist() == [0]  # a whole torus has Euler number 0

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from meshjig.charts import build_atlas
-from meshjig.charts.transfer.transfer_chart import Carrier
+from meshjig.charts.transfer.transfer_chart import ChartTransfer
 from meshjig.errors import ChartError, MeshjigError, OptionError
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import compact, edges
@@ -178,21 +178,21 @@ def test_conformal_charts_are_cut_until_they_are_true_to_size(mesh):
     assert facts["n_charts"] <= 16
 
 
-def test_where_a_glued_chart_can_not_be_carried_its_parts_are(monkeypatch):
-    carry = Carrier.carry
-    leaf_sizes = []
+def test_where_a_glued_chart_can_not_be_transferred_its_parts_are(monkeypatch):
+    apply = ChartTransfer.apply
+    sizes = []
 
-    def only_leaves(self, chart):
-        is_leaf = len(np.unique(self._light_leaf[chart.faces])) == 1
-        leaf_sizes.append(len(chart.faces))
-        return carry(self, chart) if is_leaf else None
+    def only_regions(self, chart):
+        is_region = len(np.unique(self._proxy_region[chart.faces])) == 1
+        sizes.append(len(chart.faces))
+        return apply(self, chart) if is_region else None
 
-    monkeypatch.setattr(Carrier, "carry", only_leaves)
+    monkeypatch.setattr(ChartTransfer, "apply", only_regions)
     atlas = build_atlas(Mesh(*sphere(10000)), method="slim")
     assert_sound(atlas)
     assert len(edges_cut_inside(atlas)) == 0
     assert atlas.facts["zipped"] == 0
-    assert len(leaf_sizes) > atlas.n_charts
+    assert len(sizes) > atlas.n_charts
 
 
 def test_auto_takes_rings_for_a_tube_and_says_so():

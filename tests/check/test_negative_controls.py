@@ -11,7 +11,7 @@ import sys
 import numpy as np
 import pytest
 
-from meshjig.output.files.stl import write_stl
+from meshjig.output.files.mesh_files import write_stl
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
 from tests.check.pieces import box, folded_plate, hemisphere_shells

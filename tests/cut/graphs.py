@@ -196,7 +196,7 @@ def assert_sound(a: Atlas, cut: CutMesh) -> None:
     chart = np.zeros_like(same)
     chart[outside] = a.chart_of_face[cut.parent[cut.label < 0]]
     np.testing.assert_array_equal(chart[outside], a.chart_of_face[cut.parent[cut.label < 0]])
-    assert cut.facts["label_conflicts"] == 0
+    assert cut.facts.label_conflicts == 0
 
     # a cut is an edge of the mesh
     n = np.int64(len(cut.V))

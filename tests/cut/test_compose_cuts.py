@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.cut import cut_further, overlay
+from meshjig.cut import compose_cuts, overlay
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, interpolate
 from meshjig.mesh.types import Atlas, Mesh
@@ -26,7 +26,7 @@ def cut_twice(a):
     plane = Atlas(Mesh(V, F), uv, F, np.zeros(len(F), np.int64))
     disc = loops(DISC @ TURN + [300.0, 7.0], labels=[1], outside=[0])
     second = overlay(plane, disc)
-    return grid, first, second, cut_further(a, grid, first, chosen, kept, second)
+    return grid, first, second, compose_cuts(a, grid, first, chosen, kept, second)
 
 
 def sheets():

@@ -5,7 +5,7 @@ import pytest
 
 from meshjig.cut.gap_bands import gap_outlines
 from meshjig.cut.overlay import overlay
-from meshjig.cut.transfer_pieces import carry_pieces
+from meshjig.cut.transfer_pieces import transfer_pieces
 from meshjig.errors import CutError
 from meshjig.layout.outer_gap import outer_gap
 from meshjig.mesh.measure import face_areas
@@ -39,7 +39,7 @@ def cut_with_gap(sheet, outlines, method="stretch", pieces="label"):
     names = cut.label if pieces == "label" else sheet.chart_of_face[cut.parent]
     piece = np.unique(names, return_inverse=True)[1]
     parts = overlay(sheet, gap_outlines(sheet, cut, outlines, piece, CLEARANCE, method))
-    return (cut, piece, parts, *carry_pieces(sheet.mesh, cut, piece, parts))
+    return (cut, piece, parts, *transfer_pieces(cut, piece, parts))
 
 
 @pytest.mark.parametrize("stretch", [(1.0, 1.0), (1.25, 0.8), (0.8, 0.8)])

@@ -5,9 +5,9 @@ import pytest
 import shapely
 
 from meshjig.cut.gap_bands import gap_outlines
-from meshjig.cut.merge_periodic import fold
+from meshjig.cut.merge_periodic import merge_periodic
 from meshjig.cut.overlay import overlay
-from meshjig.cut.transfer_pieces import carry_pieces
+from meshjig.cut.transfer_pieces import transfer_pieces
 from meshjig.layout.interlock import interlock
 from meshjig.layout.outer_gap import outer_gap
 from meshjig.layout.stitch import region_graph
@@ -57,7 +57,7 @@ def test_cuts_from_both_sides_meet_on_the_closing_line(tiled):
 
 def test_knobs_over_the_closing_line_are_whole_when_folded(tiled):
     _, outlines, knobs, cut = tiled
-    found = interlock(fold(cut, outlines), knobs, cut.label)
+    found = interlock(merge_periodic(cut, outlines), knobs, cut.label)
     assert len(found.neck) == 3 * AROUND
     of_row = found.neck.reshape(AROUND, 3)
     np.testing.assert_allclose(of_row, of_row.mean(0)[None].repeat(AROUND, 0), rtol=0.02)
@@ -69,7 +69,7 @@ def test_the_gap_is_complete_over_the_closing_line(tiled, method):
     atlas, outlines, _, cut = tiled
     clearance = 0.4
     parts = overlay(atlas, gap_outlines(atlas, cut, outlines, cut.label, clearance, method))
-    piece, specks = carry_pieces(atlas.mesh, cut, cut.label, parts)
+    piece, specks = transfer_pieces(cut, cut.label, parts)
     assert len(specks) == 0
     gap = outer_gap(parts.V, parts.F, piece, clearance)
     assert gap["within_10pct"] > 0.97
@@ -100,4 +100,4 @@ def test_outlines_without_copies_are_left_alone():
     outlines, _ = ring_graph(AROUND, ROWS, 2.0, WIDTH)
     cut = overlay(atlas, outlines)
     plain = type(outlines)(outlines.points, outlines.segments, outlines.left, outlines.right)
-    assert fold(cut, plain) is cut
+    assert merge_periodic(cut, plain) is cut

@@ -137,7 +137,7 @@ def test_cuts_that_meet_over_a_seam_share_their_vertex():
     a = tube_atlas()
     cut = overlay(a, g)
     assert_sound(a, cut)
-    assert cut.facts["seam_merged"] == 10
+    assert cut.facts.seam_merged == 10
     on_seam = np.flatnonzero(np.abs(np.arctan2(cut.V[:, 1], cut.V[:, 0])) < 1e-9)
     assert len(on_seam) == 17 + 10
 
@@ -164,7 +164,7 @@ def test_a_chart_with_a_slit(turn):
     assert_sound(a, cut)
     whole = overlay(sheet_atlas(20), g)
     assert_labels(a, cut, g, lambda q: grid_label(q, WIDE, turn))
-    assert cut.facts["seam_merged"] > 0
+    assert cut.facts.seam_merged > 0
     assert len(cut.V) == len(whole.V)
 
 

@@ -45,7 +45,7 @@ def test_pieces_are_discs_of_equal_area_that_lock(name):
 def test_cut_points_lie_on_the_surface_that_was_given():
     V, F = refine_long_edges(*torus(3000), 6.0)
     layout = cell_layout(Mesh(V, F), Options.of(pieces=24, process="sla"), Stages())
-    carried = layout.carried(V, Mesh(V, F), layout.cut)
+    carried = layout.carried(V, layout.cut)
     np.testing.assert_allclose(carried, layout.cut.V, atol=1e-6)
     N = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
     face = layout.face_of_surface

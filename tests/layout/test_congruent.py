@@ -9,10 +9,11 @@ from meshjig.cut.overlay import overlay
 from meshjig.layout.congruent import borders, clashes, congruent_borders, interchangeable
 from meshjig.layout.tiles import tile_layout
 from meshjig.mesh.subdivide import refine_long_edges
-from meshjig.mesh.types import Mesh, Scan
+from meshjig.mesh.types import Mesh
 from meshjig.options import Options
 from meshjig.pipeline.prepare import chart, clean_scan
 from meshjig.runtime.progress import Stages
+from meshjig.scan import Scan
 from tests.cut.graphs import SIDE, atlas, flat_sheet, grid_graph, wavy
 
 VASE = Path(__file__).parent.parent.parent / "data/vase.ply"
@@ -74,7 +75,7 @@ def test_pieces_of_a_vase_change_places_unless_they_are_to_be_unique(unique):
     options = Options.of(charts="periodic", pieces=80, unique=unique)
     mesh = clean_scan(VASE, options).mesh
     surface = Mesh(*refine_long_edges(mesh.V, mesh.F, 6.0))
-    layout = tile_layout(chart(Scan(surface, None, None), options), options, Stages())
+    layout = tile_layout(chart(Scan(surface, None, None, None), options), options, Stages())
     _, facts = clashes(layout, options.clearance)
     assert (facts.interchangeable_pieces == 0) == unique
     assert (facts.congruent_borders < 40) == unique  # plain borders are left to look alike

@@ -7,7 +7,7 @@ import pytest
 
 from meshjig.cut.overlay import overlay
 from meshjig.layout.interlock import interlock, undercuts
-from meshjig.mesh.types import Knobs
+from meshjig.mesh.types import Knobs, Mesh
 from meshjig.tiling import tile_charts
 from tests.cut.graphs import SIDE, atlas, flat_sheet, halved_sheet
 
@@ -80,7 +80,7 @@ def strip(width, length=1.5):
     V[:, 1] = np.interp(V[:, 1], [0, 50, 60, SIDE], [0, 50, 50 + width, SIDE])
     y = V[cut.F].mean(1)[:, 1]
     piece = np.where(y < 50, 2, np.where(y < 50 + width, cut.label, 3))
-    return replace(cut, V=V), piece
+    return replace(cut, mesh=Mesh(V, cut.F)), piece
 
 
 @pytest.mark.parametrize(

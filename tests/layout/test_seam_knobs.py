@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 import meshjig.layout.tiles
-from meshjig.cut import cut_curves, fold
+from meshjig.cut import cut_curves, merge_periodic
 from meshjig.layout.interlock import interlock
 from meshjig.layout.tiles import tile_layout
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import border_halfedges, edge_keys, edges, next_halfedge
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.subdivide import refine_long_edges
-from meshjig.mesh.types import Mesh, Scan
+from meshjig.mesh.types import Mesh
 from meshjig.options import Options
 from meshjig.pipeline.prepare import chart, clean_scan
 from meshjig.runtime.progress import Stages
+from meshjig.scan import Scan
 
 VASE = Path(__file__).parent.parent.parent / "data/vase.ply"
 
@@ -26,7 +27,7 @@ def atlas():
     """Rings stacked on each other: tiles meet along plain circles."""
     options = Options.of(charts="periodic", pieces=60)
     mesh = clean_scan(VASE, options).mesh
-    return chart(Scan(Mesh(*refine_long_edges(mesh.V, mesh.F, 6.0)), None, None), options)
+    return chart(Scan(Mesh(*refine_long_edges(mesh.V, mesh.F, 6.0)), None, None, None), options)
 
 
 def layouts(atlas, **asked):
@@ -44,7 +45,7 @@ def classic(atlas):
 
 
 def locks_of(layout):
-    return interlock(fold(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+    return interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
 
 
 def test_knobs_cross_the_seams_and_keep_every_promise(classic):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshjig.mesh.arrays import connected, ragged, ranks, row_of, starts
+from meshjig.mesh.arrays import connected, equal_pairs, next_in_loop, ragged, ranks, row_of, starts
 
 SIZES = st.lists(st.integers(0, 5), max_size=8).map(lambda sizes: np.array(sizes, np.int64))
 
@@ -34,3 +34,18 @@ def test_links_connect_directly_and_through_others(n, links, labels):
     count, label = connected(n, a, b)
     assert count == max(labels) + 1
     assert label.tolist() == labels
+
+
+@given(SIZES)
+def test_closed_lists_come_back_to_their_start(sizes):
+    after = next_in_loop(sizes)
+    row, rank = row_of(sizes), ranks(sizes)
+    assert (row[after] == row).all()
+    assert (rank[after] == (rank + 1) % sizes[row]).all()
+
+
+@given(st.lists(st.integers(0, 5), max_size=9), st.lists(st.integers(0, 5), max_size=9))
+def test_equal_pairs_are_all_there_are(a, b):
+    i, j = equal_pairs(np.array(a, np.int64), np.array(b, np.int64))
+    every = [(p, q) for p in range(len(a)) for q in range(len(b)) if a[p] == b[q]]
+    assert list(zip(i.tolist(), j.tolist(), strict=True)) == every

@@ -1,7 +1,20 @@
 import numpy as np
 
-from meshjig.mesh.boundary_loops import border_loop, border_loops, closed_loops, follow, summed_along
+from meshjig.mesh.boundary_loops import (
+    border_loop,
+    border_loops,
+    borders_by_length,
+    chains,
+    closed_loops,
+    follow,
+    loops_by_length,
+    runs,
+    single_loop,
+    summed_along,
+)
 from tests.meshes import cylinder, disc, sphere
+
+Y_AND_LOOP = np.array([[0, 1], [1, 2], [2, 3], [2, 4], [6, 7], [5, 6], [5, 7]])
 
 
 def test_the_border_loop_runs_with_the_chart_on_its_left():
@@ -12,6 +25,49 @@ def test_the_border_loop_runs_with_the_chart_on_its_left():
     assert (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() > 0
     assert len(np.unique(loop)) == len(loop)
     assert len(border_loop(sphere(100)[1])) == 0
+
+
+def test_every_border_is_listed_once_and_the_longest_first():
+    V, F = cylinder(400)
+    F = F[np.abs(V[F].mean(1)[:, 2] - V[:, 2].mean()) < 0.3 * np.ptp(V[:, 2])]
+    found = borders_by_length(F)
+    assert [len(loop) for loop in found] == sorted(map(len, found), reverse=True)
+    assert len(found) == 2
+    for loop in found:
+        assert len(set(loop.tolist())) == len(loop)
+        assert np.ptp(V[loop, 2]) < 0.1 * np.ptp(V[:, 2])
+
+
+def test_loops_and_single_loops():
+    start, end = np.array([3, 0, 1, 2, 8, 9]), np.array([0, 1, 2, 3, 9, 8])
+    assert [set(loop.tolist()) for loop in loops_by_length(start, end)] == [{0, 1, 2, 3}, {8, 9}]
+    assert single_loop(start, end) is None
+    loop = single_loop(start[:4], end[:4])
+    assert loop.tolist() == [3, 0, 1, 2]
+    assert single_loop(np.array([0, 1, 0, 2]), np.array([1, 0, 2, 0])) is None  # pinched
+
+
+def test_runs_end_at_breaks_and_whole_loops_come_last():
+    following = np.array([1, 2, 3, 0, 5, 4])
+    goes_on = np.array([True, False, True, False, True, True])
+    assert [run.tolist() for run in runs(following, goes_on)] == [[2, 3], [0, 1], [4, 5]]
+
+
+def test_chains_end_where_edges_end_or_branch_and_loops_are_one():
+    found = {frozenset(map(tuple, Y_AND_LOOP[chain])) for chain in chains(Y_AND_LOOP, np.zeros(0, int))}
+    assert found == {
+        frozenset({(0, 1), (1, 2)}),
+        frozenset({(2, 3)}),
+        frozenset({(2, 4)}),
+        frozenset({(5, 6), (6, 7), (5, 7)}),
+    }
+
+
+def test_chains_are_stopped_and_run_in_order():
+    line = np.array([[3, 4], [0, 1], [2, 3], [1, 2], [4, 5]])
+    whole, halves = chains(line, np.array([9])), chains(line, np.array([3]))
+    assert [chain.tolist() for chain in whole] in ([[1, 3, 2, 0, 4]], [[4, 0, 2, 3, 1]])
+    assert sorted(sorted(chain.tolist()) for chain in halves) == [[0, 4], [1, 2, 3]]
 
 
 def test_all_border_loops_are_found_with_their_faces_on_the_left():

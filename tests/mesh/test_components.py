@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from meshjig.mesh.components import components, fans, is_disc
-from tests.meshes import half_sphere, joined, moved, sphere, torus
+from meshjig.mesh.components import components, fans, is_disc, label_components
+from meshjig.mesh.halfedges import edges
+from tests.meshes import disc, half_sphere, joined, moved, sphere, torus
 
 
 def test_bodies_are_components_and_walls_part_them():
@@ -39,3 +40,15 @@ def test_a_vertex_where_two_fans_meet_is_split():
 )
 def test_a_disc_is_told(F, disc):
     assert is_disc(F) is disc
+
+
+def test_parts_of_labels_are_the_components_between_walls():
+    V, F = disc(600)
+    label = (V[F].mean(1)[:, 0] ** 2 > 400).astype(np.int64)  # left and right are alike, the middle is not
+    twin = edges(F).twin
+    beside = np.where(twin == np.arange(len(twin)), -1, twin // 3).reshape(-1, 3)
+    n, part = label_components(label, beside)
+    sides = np.repeat(label, 3)
+    m, expected = components(F, sides != sides[twin])
+    assert n == m == 3
+    assert len(np.unique(part * 3 + expected)) == 3

@@ -4,8 +4,8 @@ import pickle
 
 import numpy as np
 
-from meshjig.mesh.mesh import Mesh
-from tests.meshes import half_sphere, joined, moved, sphere
+from meshjig.mesh.mesh import Mesh, concatenate
+from tests.meshes import disc, half_sphere, joined, moved, sphere
 
 
 def test_a_mesh_unpacks_as_its_arrays():
@@ -34,3 +34,20 @@ def test_counts_and_measures():
     middle = two.V[~two.is_border_vertex][:50]
     outward = middle / np.linalg.norm(middle, axis=1, keepdims=True)
     assert (np.einsum("ij,ij->i", outward, two.vertex_normals[~two.is_border_vertex][:50]) > 0.9).all()
+
+
+def test_a_moved_mesh_keeps_its_edges_and_measures_again():
+    mesh = Mesh(*sphere(500))
+    e, area = mesh.edges, mesh.areas
+    other = mesh.moved(2 * mesh.V)
+    assert other.edges is e
+    np.testing.assert_allclose(other.areas, 4 * area)
+    assert mesh.moved(mesh.V) is mesh
+
+
+def test_meshes_are_put_one_after_the_other_and_stay_apart():
+    parts = [sphere(100), disc(200), sphere(300)]
+    V, F, part_of_vertex, part_of_face = concatenate(parts)
+    for k, part in enumerate(parts):
+        np.testing.assert_array_equal(V[part_of_vertex == k], part.V)
+        np.testing.assert_array_equal(V[F[part_of_face == k]], part.V[part.F])

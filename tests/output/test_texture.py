@@ -6,14 +6,12 @@ import trimesh
 from PIL import Image
 
 from meshjig.mesh.measure import area_vectors
-from meshjig.mesh.types import Mesh
-from meshjig.output.files.glb import write_glb
-from meshjig.output.files.obj import write_obj
-from meshjig.output.files.ply import write_ply
+from meshjig.mesh.mesh import Mesh
+from meshjig.output.files.mesh_files import write_glb, write_obj, write_ply
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
-from meshjig.output.texture import coats, colour_of_vertex
+from meshjig.output.texture import colour_of_vertex, textures
 from tests.meshes import sphere
 
 TINTS = np.array([[0.2, 0.4, 0.6]])
@@ -43,8 +41,8 @@ def ball(kind):
 @pytest.fixture(params=["texture", "colours"])
 def dressed(request):
     surface, source, to_source, solid = ball(request.param)
-    coat = coats([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
-    return surface, Piece("piece_001", *solid, tuple(TINTS[0]), coat=coat)
+    texture = textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
+    return surface, Piece("piece_001", *solid, tuple(TINTS[0]), texture=texture)
 
 
 def expected(surface, points):
@@ -54,10 +52,10 @@ def expected(surface, points):
 def test_the_outer_side_has_the_picture_and_the_rest_the_pieces_colour(dressed):
     surface, piece = dressed
     outward = np.einsum("ij,ij->i", area_vectors(piece.V, piece.F), piece.V[piece.F].mean(1)) > 0
-    assert np.array_equal(piece.coat.outer, outward)
+    assert np.array_equal(piece.texture.outer, outward)
     there = expected(surface, piece.V[piece.F[outward]])[..., :2]
-    np.testing.assert_allclose(piece.coat.rgb[outward][..., :2], there, atol=0.01)
-    np.testing.assert_allclose(piece.coat.rgb[~outward], np.broadcast_to(TINTS, ((~outward).sum(), 3, 3)))
+    np.testing.assert_allclose(piece.texture.rgb[outward][..., :2], there, atol=0.01)
+    np.testing.assert_allclose(piece.texture.rgb[~outward], np.broadcast_to(TINTS, ((~outward).sum(), 3, 3)))
 
 
 def test_files_show_it_where_it_was(dressed, tmp_path):
@@ -80,7 +78,7 @@ def test_ply_carries_colours_by_vertex(dressed, tmp_path):
     n = len(surface.V)
     rgb = mesh.visual.vertex_colors[:, :3] / 255
     np.testing.assert_allclose(rgb[:n, :2], expected(surface, surface.V)[:, :2], atol=0.02)
-    np.testing.assert_allclose(rgb, colour_of_vertex(piece.F, piece.coat), atol=0.01)
+    np.testing.assert_allclose(rgb, colour_of_vertex(piece.F, piece.texture), atol=0.01)
 
 
 @pytest.mark.parametrize(
@@ -108,12 +106,12 @@ def test_colours_do_not_bleed_between_islands_of_the_picture():
         visual=trimesh.visual.TextureVisuals(uv=uv, image=image),
         process=False,
     )
-    coat = coats([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
-    shown = coat.rgb[: len(F)]
+    texture = textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
+    shown = texture.rgb[: len(F)]
     assert np.array_equal(shown[..., 2] == 1, np.repeat(right[:, None], 3, 1))
 
 
 def test_a_plain_mesh_has_no_coat():
     surface, _, to_source, solid = ball("colours")
     source = trimesh.Trimesh(surface.V, surface.F, process=False)
-    assert coats([solid], TINTS, surface, source, to_source, (-0.5, 0.5)) is None
+    assert textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5)) is None

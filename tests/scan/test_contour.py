@@ -8,9 +8,8 @@ from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import self_crossings
 from meshjig.scan.contour import contour
-from meshjig.scan.field import Field, follow, steps
+from meshjig.scan.field import Field, follow, steps, well_composed
 from meshjig.scan.manifold import is_clean
-from meshjig.scan.well_composed import well_composed
 
 FAR = np.array([[900.0, 0, 0], [901, 0, 0], [900, 1, 0]]), np.array([[0, 1, 2]])
 

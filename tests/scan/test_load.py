@@ -10,7 +10,7 @@ from meshjig.errors import InputError
 from meshjig.mesh.measure import face_areas, mesh_volume
 from meshjig.scan import read_scan
 from meshjig.scan.load import load
-from meshjig.scan.native import import_pymeshlab
+from meshjig.scan.scale import import_pymeshlab
 from tests.meshes import Shape, joined, moved, sphere, torus
 
 FORMATS = ["stl", "obj", "ply", "off", "glb"]
@@ -90,7 +90,7 @@ def test_the_second_reader_reads_what_the_first_can_not(tmp_path):
     strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
     path.write_text(f"{head}{strips}0 0 0\n9 0 0\n0 9 0\n9 9 1\n4 0 1 2 3\n")
     read = load(path)
-    assert read.facts["reader"] == "pymeshlab"
+    assert read.reader == "pymeshlab"
     assert len(read.F) == 2
 
 
@@ -207,10 +207,10 @@ def test_vertices_that_no_face_uses_may_be_anything():
     far = Shape(np.concatenate([V, [[np.nan, 0, 0], [1e40, 0, 0]]]), F)
     scan = read_scan(far)
     assert len(scan.mesh.V) == len(V)
-    assert scan.facts["repairs"]["unused_vertices"] == 2
+    assert scan.facts.repairs.unused_vertices == 2
 
 
 def test_an_stl_of_two_bodies_gives_two_components(tmp_path):
     path = written(tmp_path, "stl", joined(sphere(300), moved(torus(300), [130, 0, 0])))
     facts = read_scan(path).facts
-    assert (facts["components"], facts["borders"], facts["genus"]) == (2, 0, 1)
+    assert (facts.components, facts.borders, facts.genus) == (2, 0, 1)

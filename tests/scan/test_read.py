@@ -40,7 +40,7 @@ from tests.meshes import (
 )
 def test_topology_is_that_of_the_shape(maker, components, borders, genus):
     facts = read_scan(maker(800)).facts
-    assert (facts["components"], facts["borders"], facts["genus"]) == (components, borders, genus)
+    assert (facts.components, facts.borders, facts.genus) == (components, borders, genus)
 
 
 def test_equal_input_gives_equal_geometry(tmp_path):
@@ -63,7 +63,7 @@ def test_the_mesh_leads_back_to_the_loaded_one(tmp_path):
 def test_a_description_counts_what_is_wrong():
     mesh = joined(sphere(300), moved(sphere(300), [40, 3, 2]))
     facts = describe((mesh.V, np.concatenate([mesh.F, mesh.F[:2]])))
-    assert facts["faces"] == len(mesh.F) + 2
-    assert facts["working_faces"] == len(mesh.F)
-    assert facts["self_crossings"] > 20
-    assert facts["repairs"]["duplicate_faces"] == 2
+    assert facts.faces == len(mesh.F) + 2
+    assert facts.working_faces == len(mesh.F)
+    assert facts.self_crossings > 20
+    assert facts.repairs.duplicate_faces == 2

@@ -1,5 +1,7 @@
 """Repair leaves clean meshes alone, counts what it changes, and keeps the shape."""
 
+from dataclasses import asdict
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -50,7 +52,7 @@ def assert_clean(V, F):
 
 
 def changed(result):
-    return {name: count for name, count in result.changes.items() if count}
+    return {name: count for name, count in asdict(result.changes).items() if count}
 
 
 def soup(mesh):
@@ -130,7 +132,7 @@ def test_only_the_component_that_is_inside_out_is_turned():
 def test_a_cavity_is_kept_out_unless_asked(mesh):
     outer, inner = mesh_volume(*sphere(500)), mesh_volume(*sphere(500, 25.0))
     without, within = repair(*mesh), repair(*mesh, cavities=True)
-    assert without.changes["cavities"] == within.changes["cavities"] == 1
+    assert without.changes.cavities == within.changes.cavities == 1
     assert mesh_volume(without.V, without.F) == pytest.approx(outer)
     assert mesh_volume(within.V, within.F) == pytest.approx(outer - inner)
     assert_clean(without.V, without.F)
@@ -147,23 +149,23 @@ def test_a_ball_in_a_hollow_is_a_body_again():
 
 def test_a_cavity_inside_out_with_its_body_is_still_a_cavity():
     result = repair(*inside_out(cavity_shell(1000)), cavities=True)
-    assert result.changes["cavities"] == 1
-    assert result.changes["turned_inside_out"] == 2
+    assert result.changes.cavities == 1
+    assert result.changes.turned_inside_out == 2
     assert mesh_volume(result.V, result.F) == pytest.approx(mesh_volume(*cavity_shell(1000)))
 
 
 def test_bodies_beside_each_other_are_no_cavities():
     torus_around = joined(torus(600), sphere(300, 10.0))  # in its hole, not in its body
-    assert repair(*torus_around).changes["cavities"] == 0
-    assert repair(*two_components(600)).changes["cavities"] == 0
+    assert repair(*torus_around).changes.cavities == 0
+    assert repair(*two_components(600)).changes.cavities == 0
 
 
 def test_crumbs_are_dropped_and_reported():
     body, crumb = sphere(500), sphere(80, 1.0)
     mesh = joined(body, moved(crumb, [60, 0, 0]), moved(crumb, [70, 0, 0]))
     result = repair(*mesh)
-    assert result.changes["dropped_components"] == 2
-    assert result.changes["dropped_area_share"] == pytest.approx(2 * area(crumb) / area(mesh))
+    assert result.changes.dropped_components == 2
+    assert result.changes.dropped_area_share == pytest.approx(2 * area(crumb) / area(mesh))
     np.testing.assert_array_equal(result.F, body.F)
 
 
@@ -177,8 +179,8 @@ def test_boxes_that_touch_in_an_edge_come_apart():
     mesh = soup(joined(box, moved(box, [100, 100, 0])))
     result = repair(*mesh)
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_edges"] == 5
-    assert result.changes["non_manifold_vertices"] == 6
+    assert result.changes.non_manifold_edges == 5
+    assert result.changes.non_manifold_vertices == 6
     assert mesh_volume(result.V, result.F) == pytest.approx(2 * mesh_volume(*box))
     assert area(result) == pytest.approx(2 * area(box))
 
@@ -189,13 +191,13 @@ def test_cones_that_touch_in_a_point_come_apart():
     other = Shape(2 * top - cone.V, inside_out(cone).F)
     result = repair(*soup(joined(cone, other)))
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_vertices"] == 1
+    assert result.changes.non_manifold_vertices == 1
     mesh = joined(cone, other)
     k = int(np.argmax(cone.V[:, 2]))
     F = np.where(k + len(cone.V) == mesh.F, k, mesh.F)
     result = repair(mesh.V, F)
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_vertices"] == 1
+    assert result.changes.non_manifold_vertices == 1
 
 
 def test_a_fin_on_a_closed_body_ends_at_it():
@@ -203,7 +205,7 @@ def test_a_fin_on_a_closed_body_ends_at_it():
     a, b = sorted(range(len(box.V)), key=lambda i: np.abs(box.V[i] - [50, 0, 0]).sum())[:2]
     result = repair(np.concatenate([box.V, [[90, 0, 0]]]), np.concatenate([box.F, [[a, b, len(box.V)]]]))
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_edges"] == 1
+    assert result.changes.non_manifold_edges == 1
     assert area(result) == pytest.approx(area(box) + face_areas(result.V, result.F)[-1])
 
 
@@ -222,7 +224,7 @@ def test_a_surface_pinched_along_an_edge_loses_no_area():
     pinched = Shape(V, F)
     result = repair(*pinched)
     assert_clean(result.V, result.F)
-    assert result.changes["non_manifold_edges"] == 1
+    assert result.changes.non_manifold_edges == 1
     assert area(result) == pytest.approx(area(pinched))
     assert mesh_volume(result.V, result.F) == pytest.approx(mesh_volume(*pinched))
 

@@ -55,7 +55,7 @@ def test_two_spheres_through_each_other_become_their_union():
     gap = np.minimum(np.linalg.norm(V, axis=1), np.linalg.norm(V - [d, 0, 0], axis=1)) - r
     assert np.percentile(np.abs(gap), 99) < 0.1
     assert np.abs(gap).max() < 0.75  # half a cell
-    assert facts["off_mm"]["max"] < 0.75
+    assert facts.off_mm.max < 0.75
     assert euler(F) == 2
 
 
@@ -68,7 +68,7 @@ def test_what_was_clean_keeps_its_shape(mesh, genus):
     assert_sound(V, F)
     assert euler(F) == 2 - 2 * genus
     assert mesh_volume(V, F) == pytest.approx(mesh_volume(*mesh), rel=1e-3)
-    assert (facts["capped_area_share"], facts["lost_area_share"]) == (0, 0)
+    assert (facts.capped_area_share, facts.lost_area_share) == (0, 0)
 
 
 def test_creases_and_corners_stay_sharp():
@@ -96,7 +96,7 @@ def test_small_holes_are_closed():
     new, G, facts = resurface(V, F[keep], 1.5)
     assert_sound(new, G)
     assert euler(G) == 2
-    assert 0 < facts["capped_area_share"] < 0.02
+    assert 0 < facts.capped_area_share < 0.02
     assert mesh_volume(new, G) == pytest.approx(mesh_volume(V, F), rel=2e-3)
 
 
@@ -110,7 +110,7 @@ def test_loose_sheets_that_face_any_way_become_one_solid():
             sides.append(Shape(np.roll(side.V, axis, axis=1), side.F))
     V, F, facts = resurface(*turned(joined(*sides)), 2.0)
     assert_sound(V, F)
-    assert facts["lost_area_share"] < 0.1
+    assert facts.lost_area_share < 0.1
     assert mesh_volume(V, F) == pytest.approx(100**3, rel=0.01)
 
 
@@ -125,12 +125,12 @@ def test_a_scan_is_rebuilt_at_its_working_resolution(faces):
     crossed = joined(sphere(2000), moved(torus(2000), [40, 0, 0]))
     plain = read_scan(crossed, faces=faces)
     assert len(self_crossings(plain.mesh.V, plain.mesh.F)) > 0
-    assert plain.facts["resurfaced"] is None
+    assert plain.facts.resurfaced is None
     scan = read_scan(crossed, faces=faces, resurface=True)
     assert_sound(scan.mesh.V, scan.mesh.F)
     assert faces / 2 < len(scan.mesh.F) <= faces
-    assert scan.facts["decimated_from"] is None
-    assert scan.facts["resurfaced"]["off_mm"]["p99"] < scan.facts["resurfaced"]["cell_mm"] / 5
+    assert scan.facts.decimated_from is None
+    assert scan.facts.resurfaced.off_mm.p99 < scan.facts.resurfaced.cell_mm / 5
 
 
 def test_equal_input_gives_equal_output():

@@ -1,10 +1,23 @@
-"""A model has the size that was asked for, or a plausible one, and there is a way back."""
+"""A model has the size that was asked for, or a plausible one; with fewer faces it stays what it is."""
 
 import numpy as np
 import pytest
 
-from meshjig.scan import to_millimetres
-from tests.meshes import torus
+from meshjig.mesh.measure import mesh_volume
+from meshjig.scan import decimate, read_scan, to_millimetres
+from tests.meshes import (
+    border,
+    creased_box,
+    cylinder,
+    genus2,
+    half_sphere,
+    noisy,
+    open_cup,
+    sphere,
+    topology,
+    torus,
+    two_components,
+)
 
 V = torus(300).V
 
@@ -25,9 +38,9 @@ V = torus(300).V
 def test_the_largest_extent_follows_the_rule_that_is_named(extent, size, result, rule):
     scaled = to_millimetres(V * extent / np.ptp(V, axis=0).max(), size)
     assert np.ptp(scaled.V, axis=0).max() == pytest.approx(result)
-    assert scaled.facts["size_mm"] == pytest.approx(np.ptp(scaled.V, axis=0))
-    assert scaled.facts["scale"] == pytest.approx(result / extent)
-    assert rule in scaled.facts["units"]
+    assert scaled.facts.size_mm == pytest.approx(np.ptp(scaled.V, axis=0))
+    assert scaled.facts.scale == pytest.approx(result / extent)
+    assert rule in scaled.facts.units
 
 
 @pytest.mark.parametrize("offset", [0.0, 300.0, 5e5])
@@ -40,8 +53,35 @@ def test_the_matrix_leads_back_to_the_source(offset, size):
 
 
 def test_only_a_model_far_away_is_moved():
-    assert to_millimetres(V + 200).facts["moved_mm"] is None
+    assert to_millimetres(V + 200).facts.moved_mm is None
     np.testing.assert_array_equal(to_millimetres(V + 200).V, V + 200)
     far = to_millimetres(V + np.array([5000, 0, 0]))
-    assert far.facts["moved_mm"] == pytest.approx([-5000, 0, 0], abs=1)
+    assert far.facts.moved_mm == pytest.approx([-5000, 0, 0], abs=1)
     assert np.abs(far.V).max() < 100
+
+
+@pytest.mark.parametrize("maker", [sphere, torus, genus2, creased_box, open_cup, cylinder, half_sphere])
+def test_simplifying_keeps_topology_borders_and_shape(maker):
+    mesh = noisy(maker(4000), 0.05)
+    V, F = decimate(*mesh, 1500)
+    assert 1400 < len(F) <= 1500
+    assert topology(F) == topology(mesh.F)
+    assert border(V, F)[1] == pytest.approx(border(*mesh)[1], rel=0.03)
+    assert mesh_volume(V, F) == pytest.approx(mesh_volume(*mesh), rel=0.01, abs=1.0)
+    np.testing.assert_allclose(np.ptp(V, axis=0), np.ptp(mesh.V, axis=0), rtol=0.03)
+
+
+def test_simplifying_keeps_every_component():
+    scan = read_scan(two_components(4000), faces=1000)
+    assert scan.facts.components == 2
+    assert scan.facts.genus == 1
+    assert scan.facts.working_faces == len(scan.mesh.F) <= 1000
+    assert scan.facts.decimated_from == len(two_components(4000).F)
+
+
+@pytest.mark.parametrize("faces", [5000, "all"])
+def test_a_mesh_within_its_resolution_is_left_alone(faces):
+    mesh = torus(4000)
+    scan = read_scan(mesh, faces=faces)
+    np.testing.assert_array_equal(scan.mesh.F, mesh.F)
+    assert scan.facts.decimated_from is None

@@ -3,9 +3,9 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.mesh.arrays import ragged, ranks, row_of
+from meshjig.mesh.cycles import cycles
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints
 
@@ -113,20 +113,15 @@ def _loop_order(ahead: Ints, goes_on: Bools) -> tuple[Ints, Bools]:
 
     A loop starts where a run does.
     """
-    n = len(ahead)
-    graph = coo_matrix((np.ones(n, np.int8), (np.arange(n), ahead)), shape=(n, n))
-    loop = connected_components(graph, directed=False)[1]
+    loops, n = cycles(ahead), len(ahead)
     inside_run = np.zeros(n, bool)
     inside_run[ahead[goes_on]] = True
-    sorted_ = np.lexsort([inside_run, loop])
-    first = np.zeros(n, bool)
-    first[sorted_[np.unique(loop[sorted_], return_index=True)[1]]] = True
-    last = first[ahead]
-    remaining, jump = np.where(last, 0, 1), np.where(last, np.arange(n), ahead)
-    while (jump != jump[jump]).any():
-        remaining, jump = remaining + remaining[jump], jump[jump]
-    order = np.lexsort([-remaining, loop])
-    return order, first[order]
+    begin = np.lexsort([inside_run, loops.of_member])[loops.first]
+    place = np.empty(n, np.int64)
+    place[loops.members] = np.arange(n)
+    rank, row = ranks(loops.size), row_of(loops.size)
+    turned = (rank + (place[begin] - loops.first)[row]) % loops.size[row]
+    return loops.members[loops.first[row] + turned], rank == 0
 
 
 def _runs(uv: Floats, cell: Ints, mm: Floats, across: Ints, first: Bools, begins: Bools) -> Borders:
@@ -168,11 +163,8 @@ def _drawn(points: Floats, first: Ints, last: Ints) -> Any:
     """Draw one line a row through ranges of points (e, k), the ends included."""
     import shapely
 
-    count = last - first + 1
-    ranges = count.ravel()
-    total = np.repeat(np.arange(ranges.size), np.maximum(ranges, 0))
-    begins = np.cumsum(np.maximum(ranges, 0)) - np.maximum(ranges, 0)
-    ids = first.ravel()[total] + np.arange(len(total)) - begins[total]
+    count = np.maximum(last - first + 1, 0).ravel()
+    total, ids = row_of(count), ragged(first.ravel(), count)
     line = total // first.shape[1]
     enough = np.bincount(line, minlength=len(first)) >= 2
     lines = np.full(len(first), shapely.from_wkt("LINESTRING EMPTY"))

@@ -1,24 +1,20 @@
 """Knobs on the borders of cells: where they are, how large, and into which cell."""
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshjig.cells.knobs.knob_borders import Borders, cell_borders
-from meshjig.cells.knobs.knob_choice import Ways, choose
-from meshjig.cells.knobs.knob_conflicts import clashes
-from meshjig.cells.knobs.knob_cost import PLAIN, costs
-from meshjig.cells.knobs.knob_lift import Lift
-from meshjig.cells.knobs.knob_loops import knob_loops
-from meshjig.cells.knobs.knob_obstacles import Curves, Room, cut_clean
-from meshjig.cells.knobs.knob_places import LARGEST, Candidates, Wish, candidates
-from meshjig.cells.knobs.knob_shapes import SLIM, STOUT, WAVE, Shapes, knob_shapes
-from meshjig.cells.knobs.surface_grid import survey
-from meshjig.mesh.measure import face_areas, sums
+from meshjig.cells.knobs.knob_choice import Choices, choose
+from meshjig.cells.knobs.knob_cost import PLAIN, conflicts, costs
+from meshjig.cells.knobs.knob_curves import KnobCurves, knob_loops
+from meshjig.cells.knobs.knob_places import LARGEST, Candidates, KnobSpec, Obstacles, candidates, cut_clean
+from meshjig.cells.knobs.knob_shapes import SLIM, STOUT, WAVE, KnobShapes, knob_shapes
+from meshjig.cells.knobs.surface_grid import Lift, surface_grid
+from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
-__all__ = ["KnobLayout", "knob_outlines"]
+__all__ = ["KnobFacts", "KnobLayout", "knob_outlines"]
 
 _CLEAR = 0.07  # distance from borders and between knobs, in units of size
 _GROUND = 0.05  # step of the grid of normals, in units of size
@@ -33,6 +29,19 @@ _SHORT = 0.3  # in units of size, a border that need not have a knob
 
 
 @dataclass(frozen=True)
+class KnobFacts:
+    """How many borders got what, for the report."""
+
+    borders: int
+    knobs: int
+    stout_knobs: int  # with thick necks, for the sake of min_neck
+    waves: int
+    plain: int
+    long_without_knob: int  # borders longer than 0.3 of size
+    too_thin: int  # borders without a knob for which one with a thinner neck would fit
+
+
+@dataclass(frozen=True)
 class KnobLayout:
     """Knobs and waves as cuts through the planes of cells; labels are cells."""
 
@@ -43,7 +52,7 @@ class KnobLayout:
     knob_of_border: Ints  # (b,), -1 where there is none
     moved: Ints  # (k, 2), the cell that gives up area to a knob or wave, and the one that gets it
     moved_mm2: Floats  # (k,)
-    facts: dict[str, Any] = field(default_factory=dict)
+    facts: KnobFacts
 
 
 def knob_outlines(
@@ -83,9 +92,6 @@ def knob_outlines(
     Returns
     -------
     KnobLayout
-        facts: borders, knobs, stout_knobs (with thick necks, for the sake of min_neck), waves,
-        plain, long_without_knob (borders longer than 0.3 of size), too_thin (borders without a knob
-        for which one with a thinner neck would fit).
 
     Notes
     -----
@@ -95,59 +101,61 @@ def knob_outlines(
     borders = cell_borders(atlas)
     if between is not None:
         borders = borders.between(between)
-    wish = Wish(size, knob_size, random)
-    room = _room(atlas, borders, wish, min_neck, rng)
-    found = candidates(room, wish, rng)
-    cost = costs(found, room.ground, room.shapes, wish, crease_aware, rng)
+    spec = KnobSpec(size, knob_size, random)
+    obstacles = _obstacles(atlas, borders, spec, min_neck, rng)
+    found = candidates(obstacles, spec, rng)
+    cost = costs(found, obstacles.grid, obstacles.shapes, spec, crease_aware, rng)
     if like is not None:
         cost += _CHANGED * ~_as_before(borders, found.curves, like)
-    best = _best_of_each_side(found, cost, room.shapes)
+    best = _best_of_each_side(found, cost, obstacles.shapes)
     found, cost = found.take(best), cost[best]
-    cell_area = sums(atlas.chart_of_face, face_areas(atlas.mesh.V, atlas.mesh.F), atlas.n_charts)
-    made, area = _chosen(room, Lift(atlas), found.curves, cost, cell_area, rng)
+    cell_area = sums(atlas.chart_of_face, atlas.mesh.areas, atlas.n_charts)
+    made, area = _chosen(obstacles, Lift(atlas), found.curves, cost, cell_area, rng)
 
-    outlines, knobs = knob_loops(borders, room.shapes, made)
-    kind = room.shapes.kind[made.shape]
+    outlines, knobs = knob_loops(borders, obstacles.shapes, made)
+    kind = obstacles.shapes.kind[made.shape]
     knob_of_border = np.full(len(borders.sides), -1)
     knob_of_border[borders.border[made.side[kind != WAVE]]] = np.arange(len(knobs.neck))
     without = knob_of_border < 0
-    facts = {
-        "borders": len(borders.sides),
-        "knobs": len(knobs.neck),
-        "stout_knobs": int((kind == STOUT).sum()),
-        "waves": int((kind == WAVE).sum()),
-        "plain": len(borders.sides) - len(kind),
-        "long_without_knob": int((without & (borders.length > _SHORT * size)).sum()),
-        "too_thin": _too_thin(room, wish, without, rng) if min_neck > 0 else 0,
-    }
+    facts = KnobFacts(
+        borders=len(borders.sides),
+        knobs=len(knobs.neck),
+        stout_knobs=int((kind == STOUT).sum()),
+        waves=int((kind == WAVE).sum()),
+        plain=len(borders.sides) - len(kind),
+        long_without_knob=int((without & (borders.length > _SHORT * size)).sum()),
+        too_thin=_too_thin(obstacles, spec, without, rng) if min_neck > 0 else 0,
+    )
     moved = np.stack([borders.cell[made.side], borders.cell[borders.opposite(made.side)]], 1)
     return KnobLayout(
         outlines, knobs, borders.cell[borders.sides], borders.length, knob_of_border, moved, area, facts
     )
 
 
-def _room(atlas: Atlas, borders: Borders, wish: Wish, min_neck: float, rng: np.random.Generator) -> Room:
-    points = np.ceil(LARGEST * wish.s * wish.size * _LENGTH / _SPACING / 4)
-    return Room(
+def _obstacles(
+    atlas: Atlas, borders: Borders, spec: KnobSpec, min_neck: float, rng: np.random.Generator
+) -> Obstacles:
+    points = np.ceil(LARGEST * spec.s * spec.size * _LENGTH / _SPACING / 4)
+    return Obstacles(
         borders,
         borders.lines(),
         borders.others(),
         borders.rims(),
-        survey(atlas, _GROUND * wish.s),
-        knob_shapes(rng, wish.random, int(np.clip(points, _COARSEST, _FINEST))),
-        max(_CLEAR * wish.s, min_neck / 2),
+        surface_grid(atlas, _GROUND * spec.s),
+        knob_shapes(rng, spec.random, int(np.clip(points, _COARSEST, _FINEST))),
+        max(_CLEAR * spec.s, min_neck / 2),
         min_neck,
     )
 
 
-def _as_before(borders: Borders, c: Curves, like: KnobLayout) -> Bools:
+def _as_before(borders: Borders, c: KnobCurves, like: KnobLayout) -> Bools:
     """Tell which curves enter the same cell from the same cell as some of another layout."""
     n = max(int(borders.cell.max(initial=0)), int(like.pairs.max(initial=0))) + 1
     gives, takes = borders.cell[c.side], borders.cell[borders.opposite(c.side)]
     return np.isin(gives * n + takes, like.moved @ np.array([n, 1]))
 
 
-def _best_of_each_side(found: Candidates, cost: Floats, shapes: Shapes) -> Ints:
+def _best_of_each_side(found: Candidates, cost: Floats, shapes: KnobShapes) -> Ints:
     """Give the cheapest candidates of each side, of every kind and rank."""
     most = np.array([_KEPT[kind] for kind in (SLIM, STOUT, WAVE)])
     sort = shapes.kind[found.curves.shape] * most.shape[1] + found.rank
@@ -158,45 +166,49 @@ def _best_of_each_side(found: Candidates, cost: Floats, shapes: Shapes) -> Ints:
 
 
 def _chosen(
-    room: Room, lift: Lift, c: Curves, cost: Floats, cell_area: Floats, rng: np.random.Generator
-) -> tuple[Curves, Floats]:
+    obstacles: Obstacles, lift: Lift, c: KnobCurves, cost: Floats, cell_area: Floats, rng: np.random.Generator
+) -> tuple[KnobCurves, Floats]:
     """Choose a curve for each border that has one; give also the area that each moves, mm2."""
-    b, n = room.borders, len(room.borders.sides)
-    scale = room.ground.scale(c.drawn(room.shapes.discs[c.shape][..., :2]))[:, 1:].mean(1)
-    area = room.shapes.area[c.shape] * (c.radius * scale) ** 2
+    b, n = obstacles.borders, len(obstacles.borders.sides)
+    scale = obstacles.grid.scale(c.drawn(obstacles.shapes.discs[c.shape][..., :2]))[:, 1:].mean(1)
+    area = obstacles.shapes.area[c.shape] * (c.radius * scale) ** 2
     plain = np.zeros(n)
-    ways = Ways(
+    choices = Choices(
         np.concatenate([b.border[c.side], np.arange(n)]),
         np.concatenate([cost, plain + PLAIN]),
         b.cell[np.concatenate([c.side, b.sides[:, 0]])],
         b.cell[np.concatenate([b.opposite(c.side), b.sides[:, 1]])],
         np.concatenate([area, plain]),
     )
-    near = clashes(room, c)
-    picked = choose(ways, near, cell_area, n, rng)
+    near = conflicts(obstacles, c)
+    picked = choose(choices, near, cell_area, n, rng)
     for _ in range(_TRIES):
         made = picked[picked < len(area)]
         curves = c.take(made)
-        good = cut_clean(room, curves) & _holds(room, lift, curves)
+        good = cut_clean(obstacles, curves) & _holds(obstacles, lift, curves)
         if good.all():
             break
-        ways.cost[made[~good]] = np.inf
-        picked = choose(ways, near, cell_area, n, rng, picked)
+        choices.cost[made[~good]] = np.inf
+        picked = choose(choices, near, cell_area, n, rng, picked)
     return curves.take(good), area[made[good]]
 
 
-def _holds(room: Room, lift: Lift, c: Curves) -> Bools:
+def _holds(obstacles: Obstacles, lift: Lift, c: KnobCurves) -> Bools:
     """Tell which curves are waves, or have thick enough necks and yet wider heads, in space."""
-    points = c.drawn(room.shapes.points[c.shape])
-    neck, head = (lift.widths(points[:, list(pair)]) for pair in (room.shapes.neck, room.shapes.head))
-    wave = room.shapes.kind[c.shape] == WAVE
-    return wave | ((neck >= room.least_neck) & (head >= _LEAST_HEAD * neck))
+    points = c.drawn(obstacles.shapes.points[c.shape])
+    neck, head = (
+        lift.widths(points[:, list(pair)]) for pair in (obstacles.shapes.neck, obstacles.shapes.head)
+    )
+    wave = obstacles.shapes.kind[c.shape] == WAVE
+    return wave | ((neck >= obstacles.least_neck) & (head >= _LEAST_HEAD * neck))
 
 
-def _too_thin(room: Room, wish: Wish, without: Bools, rng: np.random.Generator) -> int:
+def _too_thin(obstacles: Obstacles, spec: KnobSpec, without: Bools, rng: np.random.Generator) -> int:
     """Count the borders of some that could have a knob if its neck might be thinner."""
-    freely = candidates(room._replace(least_neck=0.0), wish, rng, without[room.borders.border]).curves
-    knobs = freely.side[room.shapes.kind[freely.shape] != WAVE]
+    freely = candidates(
+        obstacles._replace(least_neck=0.0), spec, rng, without[obstacles.borders.border]
+    ).curves
+    knobs = freely.side[obstacles.shapes.kind[freely.shape] != WAVE]
     possible = np.zeros(len(without), bool)
-    possible[room.borders.border[knobs]] = True
+    possible[obstacles.borders.border[knobs]] = True
     return int((without & possible).sum())

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.mesh.types import Floats, Ints
 
-__all__ = ["SLIM", "STOUT", "WAVE", "Shapes", "knob_shapes"]
+__all__ = ["SLIM", "STOUT", "WAVE", "KnobShapes", "knob_shapes"]
 
 SLIM, STOUT, WAVE = 0, 1, 2  # kinds: a knob, one with a thick neck, and a bump without undercut
 _VARIANTS = 12  # of a knob
@@ -29,7 +29,7 @@ _DISCS = np.array(  # x, y, radius
 )
 
 
-class Shapes(NamedTuple):
+class KnobShapes(NamedTuple):
     """Unit curves over the x axis, half width of a knob's head 1, from the lower right to the lower left."""
 
     kind: Ints  # (s,)
@@ -49,7 +49,7 @@ class Shapes(NamedTuple):
         return np.flatnonzero(self.kind == kind)
 
 
-def knob_shapes(rng: np.random.Generator, random: float, n: int) -> Shapes:
+def knob_shapes(rng: np.random.Generator, random: float, n: int) -> KnobShapes:
     """Draw variants of a slim and of a stout knob, and one wave.
 
     Parameters
@@ -60,7 +60,7 @@ def knob_shapes(rng: np.random.Generator, random: float, n: int) -> Shapes:
 
     Returns
     -------
-    Shapes
+    KnobShapes
         The head of a slim knob is 1.85 times as wide as its neck, that of a stout one 1.47 times.
     """
     kind = np.append(np.repeat([SLIM, STOUT], _VARIANTS), WAVE)
@@ -74,7 +74,7 @@ def knob_shapes(rng: np.random.Generator, random: float, n: int) -> Shapes:
     discs = np.concatenate([_bent(_DISCS[kind, :, :2], skew, height), radius[..., None]], -1)
     x, y = points[..., 0], np.maximum(points[..., 1], 0)
     first, widest = int(counts[0]), int(counts[:2].sum())
-    return Shapes(
+    return KnobShapes(
         kind=kind,
         points=points,
         discs=discs,

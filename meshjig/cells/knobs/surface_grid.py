@@ -1,18 +1,19 @@
-"""What lies under a place of the plane: the surface's normal and its scale, on a grid."""
+"""What lies under the plane of cells: the surface's normal and scale on a grid, and widths in space."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
+from meshjig.mesh.measure import area_vectors, barycentric, face_areas, interpolate, sums, unit
 from meshjig.mesh.types import Atlas, Floats, Ints
 
-__all__ = ["Ground", "survey"]
+__all__ = ["Lift", "SurfaceGrid", "surface_grid"]
 
 _MOST = 2_500_000  # cells of the grid
+_NEAREST = 8  # faces among which the one that a point lies in is looked for
 
 
-class Ground(NamedTuple):
+class SurfaceGrid(NamedTuple):
     """A grid over the plane of an atlas; each of its squares names a row."""
 
     origin: Floats  # (2,), mm
@@ -36,7 +37,7 @@ class Ground(NamedTuple):
         return rows
 
 
-def survey(atlas: Atlas, step: float) -> Ground:
+def surface_grid(atlas: Atlas, step: float) -> SurfaceGrid:
     """Average faces over the squares of a grid; squares without a face take the nearest one that has.
 
     Parameters
@@ -62,4 +63,33 @@ def survey(atlas: Atlas, step: float) -> Ground:
     number = np.full(shape, -1)
     number.ravel()[full[known]] = np.arange(known.sum())
     nearest = distance_transform_edt(number < 0, return_distances=False, return_indices=True)
-    return Ground(low, step, number[tuple(nearest)], unit(total[known]), np.sqrt(space[known] / plane[known]))
+    return SurfaceGrid(
+        low, step, number[tuple(nearest)], unit(total[known]), np.sqrt(space[known] / plane[known])
+    )
+
+
+class Lift:
+    """Points of an atlas in space; a point in none of the nearest faces takes the plane of one.
+
+    Parameters
+    ----------
+    atlas : Atlas
+    """
+
+    def __init__(self, atlas: Atlas) -> None:
+        from scipy.spatial import cKDTree
+
+        self._atlas = atlas
+        self._tree: Any = cKDTree(atlas.uv[atlas.F_uv].mean(1), balanced_tree=False, compact_nodes=False)
+
+    def widths(self, pairs: Floats) -> Floats:
+        """Give the distance in space between two points (k, 2, 2) each; (k,), mm."""
+        p = pairs.reshape(-1, 2)
+        uv, F = self._atlas.uv, self._atlas.F_uv
+        k = min(_NEAREST, len(F))
+        face = self._tree.query(p, k)[1].reshape(len(p), k)
+        bary = barycentric(uv, F, face.ravel(), np.repeat(p, k, axis=0)).reshape(len(p), k, 3)
+        best = bary.min(2).argmax(1)
+        row = np.arange(len(p))
+        x = interpolate(self._atlas.mesh.V, self._atlas.mesh.F, face[row, best], bary[row, best])
+        return np.linalg.norm(x[0::2] - x[1::2], axis=1)

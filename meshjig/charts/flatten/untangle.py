@@ -1,23 +1,22 @@
-"""Turn back the few mirrored faces of an otherwise good flattening."""
+"""Repair a flattening: turn mirrored faces back, and draw borders apart that cross."""
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Bools, Floats, Ints, ragged
+from meshjig.mesh.boundary_loops import border_loop
 from meshjig.mesh.halfedges import compact, edges
 from meshjig.mesh.measure import edge_lengths, singular_values
+from meshjig.mesh.mesh import Mesh
 
-__all__ = ["faces_around", "untangle"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+__all__ = ["faces_around", "separate_border", "untangle"]
 
 _THINNEST = 1e-3  # the lesser stretch below which a face counts as mirrored
 _LARGE = 50_000  # faces, from which on a list of the faces at each vertex is made sooner than a ring found
 _FIRST = 6  # rounds that turn back most, before wider surroundings are looked at
 _BORDER_STAYS = 2  # rounds in which only inner vertices move
+_RINGS = 20  # of faces around crossing borders that may be moved
 
 
 def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30, stretch: Floats | None = None) -> Floats:
@@ -47,7 +46,7 @@ def untangle(V: Floats, F: Ints, uv: Floats, rounds: int = 30, stretch: Floats |
         stays = np.zeros(len(V), bool)
         stays[F[~near].ravel()] = True
         uv = uv.copy()
-        uv[kept] = _relaxed(V[kept], H, uv[kept], stays[kept], bad[near], n, even)
+        uv[kept] = _relaxed(Mesh(V[kept], H), uv[kept], stays[kept], bad[near], n, even)
         bad[near] = _mirrored(V, F[near], uv)
     return uv
 
@@ -77,19 +76,19 @@ def _spread(F: Ints, faces: Bools, rings: int) -> Bools:
         new = F[rim].ravel()
         new = np.unique(new[~reached[new]])
         reached[new] = True
-        first = np.cumsum(n[new]) - n[new]
-        rim = at_vertex.indices[np.repeat(begin[new] - first, n[new]) + np.arange(n[new].sum())]
+        rim = at_vertex.indices[ragged(begin[new], n[new])]
         rim = np.unique(rim[~marked[rim]])
         marked[rim] = True
     return marked
 
 
-def _relaxed(V: Floats, F: Ints, uv: Floats, stays: Bools, bad: Bools, rounds: int, even: bool) -> Floats:
+def _relaxed(mesh: Mesh, uv: Floats, stays: Bools, bad: Bools, rounds: int, even: bool) -> Floats:
     """Relax with near neighbours weighing more, which stretches less, or evenly, which turns more back."""
     from scipy.sparse import diags
     from scipy.sparse.linalg import spsolve
 
-    adjacency, along_border, on_border = _neighbours(V, F, stays, even)
+    V, F = mesh
+    adjacency, along_border, on_border = _neighbours(mesh, stays, even)
     inner = diags((~on_border).astype(float))
     W = (inner @ adjacency + along_border).tocsr()
     L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()
@@ -132,19 +131,71 @@ def _stand_up_ears(V: Floats, F: Ints, uv: Floats, moves: Bools) -> None:
     uv[apex] = uv[a] + along[:, None] * flat + height[:, None] * flat[:, ::-1] * [-1.0, 1.0]
 
 
-def _neighbours(V: Floats, F: Ints, stays: Bools, even: bool) -> tuple[Any, Any, Bools]:
-    """Give who is joined by an edge, who by a border edge, and who lies on the border.
+def _neighbours(mesh: Mesh, stays: Bools, even: bool) -> tuple[Any, Any, Bools]:
+    """Who is joined by an edge, who by a border edge, and who lies on the border.
 
     Where faces were left out, both ends of an edge stay: that is no border.
     """
     from scipy.sparse import coo_matrix
 
-    e, n = edges(F), len(stays)
+    e, n = mesh.edges, len(stays)
     rim = e.E[(e.n_faces == 1) & ~stays[e.E].all(1)]
-    on_border = np.zeros(n, bool)
-    on_border[rim.ravel()] = True
-    length = edge_lengths(V, e.E)
+    on_border = np.isin(np.arange(n), rim)
+    length = edge_lengths(mesh.V, e.E)
     weight = np.ones(len(e.E)) if even else length.mean() / np.maximum(length, 1e-2 * length.mean())
     every = coo_matrix((weight, e.E.T), shape=(n, n))
     along = coo_matrix((np.ones(len(rim)), rim.T), shape=(n, n))
     return (every + every.T).tocsr(), (along + along.T).tocsr(), on_border
+
+
+def separate_border(V: Floats, F: Ints, uv: Floats, rounds: int = 12, border: Ints | None = None) -> Floats:
+    """Pull crossing borders inward, each into its own side, until they cross no more.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, one disc that uses every vertex
+    uv : (n, 2) float64, mm, without mirrored faces
+    rounds : int
+    border : (b,) int64, its border loop, where the caller has it
+
+    Returns
+    -------
+    uv : (n, 2) float64, mm. Borders may still cross, or faces be mirrored: the caller checks.
+    """
+    loop = border_loop(F) if border is None else border
+    crossing = _crossing(uv[loop])
+    for width in range(1, rounds + 1):
+        if not len(crossing):
+            break
+        near = (crossing[:, None] + np.arange(-width, width + 2)).ravel() % len(loop)
+        uv = _pulled(V, F, uv, np.unique(loop[near]))
+        crossing = _crossing(uv[loop])
+    return uv
+
+
+def _pulled(V: Floats, F: Ints, uv: Floats, pulled: Ints) -> Floats:
+    """Move vertices half-way to the mean of their neighbours, and turn back what that mirrors near them."""
+    from scipy.sparse import coo_matrix
+
+    chosen = np.zeros(len(V), bool)
+    chosen[pulled] = True
+    H, kept = compact(F[faces_around(F, np.any(chosen[F], axis=1), _RINGS)])
+    own, E = np.flatnonzero(chosen[kept]), edges(H).E
+    W = coo_matrix((np.ones(len(E)), E.T), shape=(len(kept),) * 2).tocsr()
+    W = (W + W.T)[own]
+    local = uv[kept]
+    local[own] = (local[own] + (W @ local) / np.asarray(W.sum(1)).reshape(-1, 1)) / 2
+    uv = uv.copy()
+    uv[kept] = untangle(V[kept], H, local)
+    return uv
+
+
+def _crossing(ring: Floats) -> Ints:
+    """List the segments of a ring that meet others than their neighbours."""
+    import shapely
+
+    segments = shapely.linestrings(np.stack([ring, np.roll(ring, -1, 0)], 1))
+    a, b = shapely.STRtree(segments).query(segments, predicate="intersects")
+    apart = np.abs(a - b)
+    return np.unique(a[(apart > 1) & (apart < len(ring) - 1)])

@@ -1,16 +1,20 @@
-"""Parts of one mesh, looked at again and again: is it a disc, and what is its rim."""
+"""Regions of one mesh: whether they are discs, and without thin parts."""
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.charts.segment.clean_labels import clean_labels
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
+from meshjig.mesh.boundary_loops import single_loop
 from meshjig.mesh.halfedges import edges, next_halfedge
+from meshjig.mesh.mesh import Mesh
 
-__all__ = ["Region", "Regions", "single_loop"]
+__all__ = ["Region", "Regions", "inner_vertices", "is_neck_free", "without_necks"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+_SMALL = 30  # faces; smaller regions are not asked for more than to be discs
+_TIPS = 4  # thin faces that may always be, or as a share of all:
+_TIPS_SHARE = 0.02
 
 
 class Region(NamedTuple):
@@ -58,15 +62,57 @@ class Regions:
         return None if loop is None else Region(self._number[corners], kept, loop)
 
 
-def single_loop(start: Ints, end: Ints) -> Ints | None:
-    """Order the edges of a rim; None where they make no single loop without pinches."""
-    follows = dict(zip(start.tolist(), end.tolist(), strict=True))
-    if len(follows) != len(start) or not follows:
-        return None
-    first = at = next(iter(follows))
-    loop = [first]
-    while (at := follows[at]) != first:
-        loop.append(at)
-        if len(loop) > len(start):
-            return None
-    return np.array(loop, np.int64) if len(loop) == len(start) else None
+def is_neck_free(region: Region) -> bool:
+    """Tell whether a region has neither thin necks nor long thin tips.
+
+    Every two inner vertices must be connected over edges between inner vertices, and only a few
+    faces may be away from all faces that have one.
+    """
+    F, n = region.F, len(region.kept)
+    if len(F) < _SMALL:
+        return True
+    inner = np.ones(n, bool)
+    inner[region.loop] = False
+    core = inner[F].any(1)
+    at_core = np.zeros(n, bool)
+    at_core[F[core].ravel()] = True
+    if (~at_core[F].any(1)).sum() > max(_TIPS, _TIPS_SHARE * len(F)):
+        return False
+    # All that is not inner is connected along the rim, so that what is inner has no holes: its Euler
+    # number is the number of its parts.
+    following = inner[np.roll(F, -1, 1)]
+    n_edges = int((inner[F] & following).sum()) // 2
+    return int(inner.sum()) - n_edges + int(inner[F].all(1).sum()) <= 1
+
+
+def without_necks(mesh: Mesh, label: Ints, area: Floats) -> Ints:
+    """Cut labels at their thin necks, and give their thin tips to the labels around.
+
+    Parameters
+    ----------
+    mesh : Mesh, manifold, one component
+    label : (m,) int64, 0 to k - 1
+    area : (m,) float64, mm2
+
+    Returns
+    -------
+    label : (m,) int64, 0 to k' - 1
+    """
+    F, inner = mesh.F, inner_vertices(mesh.F, label)
+    ends = mesh.edges.E
+    ends = ends[inner[ends].all(1)]
+    part = connected(len(inner), *ends.T)[1]
+    out = np.where(inner[F], part[F], -1).max(1)
+    if (out < 0).all():
+        return label
+    out[out >= 0] = np.unique(out[out >= 0], return_inverse=True)[1]
+    return np.unique(clean_labels(mesh, out, area), return_inverse=True)[1].astype(np.int64)
+
+
+def inner_vertices(F: Ints, label: Ints) -> Bools:
+    """Tell which vertices have faces of one label only, (n,); F (m, 3), label (m,)."""
+    n = int(F.max()) + 1
+    low, high = np.full(n, len(label)), np.full(n, -1)
+    np.minimum.at(low, F.ravel(), np.repeat(label, 3))
+    np.maximum.at(high, F.ravel(), np.repeat(label, 3))
+    return low == high

@@ -1,1 +1,1 @@
-"""Charts found on a light proxy, and transferred to the full mesh."""
+"""Charts found on a proxy with few faces, and transferred to the full mesh."""

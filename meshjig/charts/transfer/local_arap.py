@@ -1,20 +1,17 @@
-"""Let a flattening that came from a lighter mesh take in the details of its own mesh."""
+"""Let a flattening that came from a proxy take in the details of its own mesh."""
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.flatten.flatten import FLAT_LIMITS
+from meshjig.charts.distortion import within_limits
 from meshjig.charts.flatten.untangle import faces_around
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges, compact
 from meshjig.mesh.measure import face_areas, face_sides, singular_values, sums
 
-__all__ = ["settle"]
+__all__ = ["local_arap"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 _RINGS = 6
 _SWEEPS = 12  # of conjugate gradients: details are near, so few reach them
@@ -22,7 +19,7 @@ _BACK = 12  # rounds in which mirrored faces draw their surroundings back
 _THINNEST = 1e-2  # lesser stretch of a face below which it is drawn back
 
 
-def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3, border: Ints | None = None) -> Floats:
+def local_arap(V: Floats, F: Ints, uv: Floats, rounds: int = 3, border: Ints | None = None) -> Floats:
     """Bring faces around those that stretch too much nearer to rigid copies.
 
     A few steps of ARAP whose equations are solved only roughly, by conjugate gradients from the
@@ -48,7 +45,7 @@ def settle(V: Floats, F: Ints, uv: Floats, rounds: int = 3, border: Ints | None 
     """
     s = singular_values(V, F, uv)
     area = face_areas(V, F)
-    bad = (s[:, 1] < FLAT_LIMITS[0]) | (s[:, 0] > FLAT_LIMITS[1])
+    bad = ~within_limits(s)
     if not bad.any() or s[:, 1].min() <= 0:
         return uv
     near = faces_around(F, bad, _RINGS)
@@ -92,7 +89,7 @@ def _flat_faces(V: Floats, F: Ints) -> Floats:
 
 
 def _cotangents(corners: Floats) -> Floats:
-    """Give half the cotangent of the angle that faces each side, (m, 3); side k runs from corner k."""
+    """Half the cotangent of the angle that faces each side, (m, 3); side k runs from corner k."""
     side = np.roll(corners, -1, 1) - corners
     p, q = -np.roll(side, -1, 1), np.roll(side, -2, 1)  # from the corner that faces side k
     cross = np.abs(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
@@ -101,7 +98,7 @@ def _cotangents(corners: Floats) -> Floats:
 
 
 def _pull(F: Ints, uv: Floats, sides: Floats) -> Floats:
-    """Give the right side of ARAP's equations: every face turned to where it fits best, (n, 2).
+    """The right side of ARAP's equations: every face turned to where it fits best, (n, 2).
 
     Of the faces laid flat, side k runs from corner k; (3, 2, m), weighted.
     """

@@ -1,70 +1,68 @@
-"""Carry flattened charts from a proxy to the full mesh, cuts inside them too."""
+"""Transfer flattened charts from a proxy to the full mesh, cuts inside them too."""
 
 import numpy as np
 
 from meshjig.charts.chart import Chart
-from meshjig.charts.cuts import chains, cut_faces
-from meshjig.charts.distortion_limits import within_limits
-from meshjig.charts.flatten.flatten import flat_share, is_unflipped, ring_is_simple, unit_stretch
-from meshjig.charts.flatten.separate_border import part
-from meshjig.charts.flatten.slim import slim
-from meshjig.charts.flatten.untangle import untangle
-from meshjig.charts.segment.region import single_loop
-from meshjig.charts.transfer.local_arap import settle
-from meshjig.charts.transfer.outliers import without_strays
+from meshjig.charts.cuts import cut_faces
+from meshjig.charts.distortion import (
+    flat_share,
+    is_unflipped,
+    ring_is_simple,
+    share_within_limits,
+    unit_stretch,
+)
+from meshjig.charts.flatten.isometry import slim
+from meshjig.charts.flatten.untangle import separate_border, untangle
+from meshjig.charts.transfer.glued_seams import GluedSeams
+from meshjig.charts.transfer.local_arap import local_arap
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
+from meshjig.mesh.boundary_loops import single_loop
 from meshjig.mesh.closest_points import Nearest, nearest
-from meshjig.mesh.halfedges import Edges, compact, edges
-from meshjig.mesh.measure import face_areas, singular_values
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.halfedges import compact, edges
+from meshjig.mesh.measure import face_areas, face_sides, singular_values
+from meshjig.mesh.mesh import Mesh
 
-__all__ = ["Carrier"]
+__all__ = ["ChartTransfer", "without_outliers"]
 
 _MAY_LOSE = 0.03
 _LITTLE = 0.01  # of the area may leave FLAT_LIMITS as mirrored faces are turned back; SLIM brings more back
 _ITERATIONS = 5  # of it
 _HEAVY = 40_000  # faces, for which it takes too long
+_LONGEST = 3.0  # an edge in the plane over the edge in space
 
 
-class Carrier:
-    """Takes charts of a proxy over to a mesh whose faces know the proxy's leaves.
+class ChartTransfer:
+    """Transfers charts of a proxy to a mesh whose faces know the proxy's regions.
 
-    Leaves are regions without cuts inside; a chart is made of whole leaves, glued along parts of
-    the seams between them. So a face's leaf tells on which side of a cut it is.
+    Regions have no cuts inside; a chart is made of whole regions, glued along parts of the seams
+    between them. So a face's region tells on which side of a cut it is.
 
     Parameters
     ----------
-    V, F : (n, 3) float64, mm, and (m, 3) int64, the mesh, one component
-    leaf : (m,) int64, 0 to k - 1
-    W, G : (n', 3) float64, mm, and (m', 3) int64, the proxy
-    light_leaf : (m',) int64, 0 to k - 1
-    e : Edges, of F, where the caller has them
-    places : Nearest, of all V on the proxy, where the caller has them
-    settles : bool, whether to look for details of the mesh that the proxy has not seen
+    mesh : Mesh, one component
+    region : (m,) int64, 0 to k - 1
+    proxy : Mesh
+    proxy_region : (m',) int64, 0 to k - 1
+    places : Nearest, of all vertices on the proxy, where the caller has them
+    details : bool, whether to look for details of the mesh that the proxy has not seen
     """
 
     def __init__(
         self,
-        V: Floats,
-        F: Ints,
-        leaf: Ints,
-        W: Floats,
-        G: Ints,
-        light_leaf: Ints,
-        e: Edges | None = None,
+        mesh: Mesh,
+        region: Ints,
+        proxy: Mesh,
+        proxy_region: Ints,
         places: Nearest | None = None,
-        settles: bool = True,
+        details: bool = True,
     ) -> None:
-        self._V, self._F, self.leaf = V, F, leaf
-        self._W, self._G, self._light_leaf = W, G, light_leaf
-        self._places = nearest(V, W, G) if places is None else places
-        self._n_leaves, self._settles = int(max(leaf.max(), light_leaf.max())) + 1, settles
-        self._e, self._light = edges(F) if e is None else e, edges(G)
-        self._sides, self._light_sides = _sides(self._e, leaf), _sides(self._light, light_leaf)
-        rim = np.unique(self._e.E[self._e.n_faces == 1])
-        rows = np.flatnonzero(self._sides[:, 0] != self._sides[:, 1])
-        self._chains = [rows[chain] for chain in chains(self._e.E[rows], rim)]
+        self.mesh, self.region = mesh, region
+        self._proxy, self._proxy_region = proxy, proxy_region
+        self._places = nearest(mesh.V, proxy.V, proxy.F) if places is None else places
+        self._n_regions, self._details = int(max(region.max(), proxy_region.max())) + 1, details
+        self._seams = GluedSeams(mesh, region, proxy, proxy_region)
 
-    def carry(self, chart: Chart, may_lose: float = _MAY_LOSE) -> Chart | None:
+    def apply(self, chart: Chart, may_lose: float = _MAY_LOSE) -> Chart | None:
         """Flatten a chart's part of the mesh as the proxy's is; None where that makes no sound chart.
 
         Parameters
@@ -73,32 +71,32 @@ class Carrier:
         may_lose : float, share of the area that may leave FLAT_LIMITS for mirrored faces to be turned
             back and borders to be drawn apart
         """
-        is_chosen = np.zeros(self._n_leaves, bool)
-        is_chosen[self._light_leaf[chart.faces]] = True
-        faces = np.flatnonzero(is_chosen[self.leaf])
+        is_chosen = np.zeros(self._n_regions, bool)
+        is_chosen[self._proxy_region[chart.faces]] = True
+        faces = np.flatnonzero(is_chosen[self.region])
         if not len(faces):  # none of the mesh was nearest to them
             return None
-        cut = self._cut_around(is_chosen, chart)
-        corners = cut_faces(self._F, self._e, cut, faces)
+        cut = self._seams.cuts(is_chosen, chart)
+        corners = cut_faces(self.mesh.F, self.mesh.edges, cut, faces)
         border = self._border(cut, faces, corners)
         if border is None:
             return None
         origin = np.empty(int(corners.max()) + 1, np.int64)
-        origin[corners] = self._F[faces]
-        X = self._V[origin]
-        guess = without_strays(X, corners, self._first_guess(chart, faces, corners))
+        origin[corners] = self.mesh.F[faces]
+        X = self.mesh.V[origin]
+        guess = without_outliers(X, corners, self._first_guess(chart, faces, corners))
         stretch = singular_values(X, corners, guess)
-        wanted = within_limits(face_areas(X, corners), stretch)
+        wanted = share_within_limits(face_areas(X, corners), stretch)
         uv = untangle(X, corners, guess, stretch=stretch)
-        if self._settles:
-            uv = settle(X, corners, uv, border=border)
+        if self._details:
+            uv = local_arap(X, corners, uv, border=border)
         if (
             len(faces) <= _HEAVY
             and is_unflipped(uv, corners)
             and flat_share(X, corners, uv) < wanted - _LITTLE
         ):
             uv = slim(X, corners, uv, _ITERATIONS)
-        uv = part(X, corners, uv, border=border)
+        uv = separate_border(X, corners, uv, border=border)
         if not (is_unflipped(uv, corners) and ring_is_simple(uv[border])):
             return None
         uv = unit_stretch(X, corners, uv)
@@ -107,9 +105,9 @@ class Carrier:
         return Chart(faces, uv, corners)
 
     def _border(self, cut: Bools, faces: Ints, corners: Ints) -> Ints | None:
-        """Give the corners along the border of faces cut open; None where they are no disc."""
-        h = (3 * faces[:, None] + np.arange(3)).ravel()
-        rim = np.flatnonzero(cut[self._e.edge_of_halfedge[h]] | (self._e.twin[h] == h))
+        """The corners along the border of faces cut open; None where they are no disc."""
+        e, h = self.mesh.edges, (3 * faces[:, None] + np.arange(3)).ravel()
+        rim = np.flatnonzero(cut[e.edge_of_halfedge[h]] | (e.twin[h] == h))
         n, ends = int(corners.max()) + 1, np.stack([corners.ravel(), np.roll(corners, -1, 1).ravel()], 1)[rim]
         # a cut that nothing ends at opens nothing
         start, end = ends[~np.isin(ends @ [1, n], ends @ [n, 1])].T
@@ -117,101 +115,73 @@ class Carrier:
             return None
         return single_loop(start, end)
 
-    def _cut_around(self, is_chosen: Bools, chart: Chart) -> Bools:
-        """Tell which edges are cut: all between leaves but those that are closed inside a chart, (e,)."""
-        cut = self._sides[:, 0] != self._sides[:, 1]
-        corners = np.full((len(self._G), 3), -1)
-        corners[chart.faces] = chart.corners
-        closed = _closed(self._light, corners)
-        seams: dict[tuple[int, int], list[Ints]] = {}
-        for chain in self._chains:
-            low, high = self._sides[chain[0]].tolist()
-            if is_chosen[[low, high]].all():
-                seams.setdefault((low, high), []).append(chain)
-        for pair, chained in seams.items():
-            for stretch in self._glued(chained, np.array(pair), closed):
-                cut[stretch] = False
-        return cut
-
-    def _glued(self, seams: list[Ints], pair: Ints, closed: Bools) -> list[Ints]:
-        """Give the stretches of two leaves' seams that are closed, going by the nearest place on the proxy.
-
-        Each closed stretch of the proxy closes one here: another, be it a single edge long, would be a
-        bridge that leaves a hole.
-        """
-        rows = np.flatnonzero((self._light_sides == pair).all(1))
-        if not closed[rows].any():
-            return []
-        run = np.full(len(rows), -1)
-        shut = np.flatnonzero(closed[rows])
-        runs = chains(self._light.E[rows[shut]], rows[:0])
-        for number, found in enumerate(runs):
-            run[shut[found]] = number
-        middle = self._W[self._light.E[rows]].mean(1)
-        near = [run[_nearest(self._V[self._e.E[seam]].mean(1), middle)] for seam in seams]
-        length = [np.linalg.norm(np.diff(self._V[self._e.E[seam]], axis=1)[:, 0], axis=1) for seam in seams]
-        glued = []
-        for number in range(len(runs)):
-            gains = [np.where(n == number, along, -along) for n, along in zip(near, length, strict=True)]
-            stretches = [_best_stretch(gain) for gain in gains]
-            sums = [float(gain[stretch].sum()) for gain, stretch in zip(gains, stretches, strict=True)]
-            best = int(np.argmax(sums))
-            glued.append(seams[best][stretches[best]])
-        return glued
-
     def _first_guess(self, chart: Chart, faces: Ints, corners: Ints) -> Floats:
-        """Place corners where their leaf says, and corners of several leaves in the middle."""
+        """Place corners where their region says, and corners of several regions in the middle."""
         n = int(corners.max()) + 1
         total, count = np.zeros((n, 2)), np.zeros(n)
-        number = np.full(len(self._G), -1)
+        number = np.full(len(self._proxy.F), -1)
         number[chart.faces] = np.arange(len(chart.faces))
-        for leaf in np.unique(self._light_leaf[chart.faces]):
-            own = self.leaf[faces] == leaf
-            G, kept = compact(self._F[faces[own]])
+        for region in np.unique(self._proxy_region[chart.faces]):
+            own = self.region[faces] == region
+            G, kept = compact(self.mesh.F[faces[own]])
             row = np.empty(len(kept), np.int64)
             row[G] = corners[own]
             face, bary = self._places.face[kept], self._places.bary[kept]
-            light = chart.faces[self._light_leaf[chart.faces] == leaf]
-            other = (self._light_leaf[face] != leaf) | (number[face] < 0)
-            strange = np.flatnonzero(other)  # nearer to another leaf
+            there = chart.faces[self._proxy_region[chart.faces] == region]
+            other = (self._proxy_region[face] != region) | (number[face] < 0)
+            strange = np.flatnonzero(other)  # nearer to another region
             if len(strange):
-                again = nearest(self._V[kept[strange]], self._W, self._G[light])
-                face[strange], bary[strange] = light[again.face], again.bary
+                again = nearest(self.mesh.V[kept[strange]], self._proxy.V, self._proxy.F[there])
+                face[strange], bary[strange] = there[again.face], again.bary
             total[row] += Nearest(number[face], bary).interpolated(chart.corners, chart.uv)
             count[row] += 1
         return total / count[:, None]
 
 
-def _nearest(points: Floats, others: Floats) -> Ints:
-    """Give the nearest of some other points for each point, (n,)."""
-    # the square of the distance but for what all others share
-    off = (others**2).sum(1) - 2 * points @ others.T
-    return off.argmin(1)
+def without_outliers(V: Floats, F: Ints, uv: Floats) -> Floats:
+    """Place outliers at the mean of their neighbours.
+
+    Where two sheets of a surface come close, a vertex may be taken for one of the other sheet. Edges
+    that become much too long give it away: outliers are joined to the rest by such edges only.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, one disc that uses every vertex
+    uv : (n, 2) float64, mm
+
+    Returns
+    -------
+    uv : (n, 2) float64, mm; itself where there are none
+    """
+    from scipy.sparse import coo_matrix, diags
+    from scipy.sparse.linalg import spsolve
+
+    n = len(V)
+    ab, ac, bc = _sound_sides(V, F, uv)
+    if (ab & ac & bc).all():
+        return uv
+    bc &= ~(ab & ac)  # no need to join what is connected
+    rows = np.concatenate([F[ab, 0], F[ac, 0], F[bc, 1]])
+    cols = np.concatenate([F[ab, 1], F[ac, 2], F[bc, 2]])
+    _, part = connected(n, rows, cols)
+    out = part != np.bincount(part).argmax()
+    if not out.any():
+        return uv
+    E = edges(F).E
+    W = coo_matrix((np.ones(len(E)), E.T), shape=(n, n)).tocsr()
+    W = W + W.T
+    L = (diags(np.asarray(W.sum(1)).ravel()) - W).tocsr()[out]
+    placed = uv.copy()
+    placed[out] = spsolve(L[:, out].tocsc(), -(L[:, ~out] @ uv[~out])).reshape(-1, 2)
+    return placed
 
 
-def _sides(e: Edges, label: Ints) -> Ints:
-    """Give the labels on both sides of every edge, lower first; twice 0 where they are the same, (e, 2)."""
-    sides = np.zeros((len(e.E), 2), np.int64)
-    here, there = np.repeat(label, 3), label[e.twin // 3]
-    h = np.flatnonzero(here != there)
-    sides[e.edge_of_halfedge[h]] = np.sort(np.stack([here[h], there[h]], 1), axis=1)
-    return sides
-
-
-def _closed(e: Edges, corners: Ints) -> Bools:
-    """Tell over which edges corners hang together."""
-    h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
-    t = e.twin[h]
-    G = corners.ravel()
-    after = np.roll(corners, -1, 1).ravel()
-    closed = np.zeros(len(e.E), bool)
-    closed[e.edge_of_halfedge[h]] = (G[h] == after[t]) & (after[h] == G[t]) & (G[h] >= 0)
-    return closed
-
-
-def _best_stretch(gain: Floats) -> slice:
-    """Give the stretch with the largest sum; empty where no sum is above 0."""
-    sums = np.append(0, np.cumsum(gain))
-    low = np.minimum.accumulate(sums)
-    end = int((sums - low).argmax())
-    return slice(int(sums[: end + 1].argmin()), end)
+def _sound_sides(V: Floats, F: Ints, uv: Floats) -> tuple[Bools, Bools, Bools]:
+    """Tell which sides of faces are not much too long: from corner 0 to 1, 0 to 2 and 1 to 2, (m,) each."""
+    sound = np.empty((3, len(F)), bool)
+    for (some, p, q), (_, d, e) in zip(face_sides(uv, F), face_sides(V, F), strict=True):
+        flat, long = ([x, y, [b - a for a, b in zip(x, y, strict=True)]] for x, y in ((p, q), (d, e)))
+        for k in range(3):
+            sound[k, some] = sum(x * x for x in flat[k]) <= _LONGEST**2 * sum(x * x for x in long[k])
+    return sound[0], sound[1], sound[2]

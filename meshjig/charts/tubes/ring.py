@@ -3,16 +3,13 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.distortion_limits import within_limits
+from meshjig.charts.distortion import share_within_limits
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import face_areas, singular_values
 
 __all__ = ["RingMap", "corner_uv", "flatten_ring", "ring_stretch"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 _ITERATIONS = 150
 _SETTLED = 1e-6  # relative change of the energy
@@ -79,7 +76,7 @@ def corner_uv(F: Ints, uv: Floats, left: Bools, period: float) -> tuple[Floats, 
 
 
 def ring_stretch(V: Floats, F: Ints, left: Bools, ring: RingMap) -> Floats:
-    """Give the two stretches of each face, (m, 2), as `singular_values` does."""
+    """The two stretches of each face, (m, 2), as `singular_values` does."""
     return singular_values(V, F, *corner_uv(F, ring.uv, left, ring.period))
 
 
@@ -89,7 +86,7 @@ def _within_limits(V: Floats, F: Ints, left: Bools, ring: RingMap) -> RingMap:
     best, most = ring, -1.0
     for width in _WIDTHS:
         other = RingMap(ring.uv * [width, 1 / width], ring.period * width)
-        share = within_limits(area, ring_stretch(V, F, left, other))
+        share = share_within_limits(area, ring_stretch(V, F, left, other))
         if share > most:
             best, most = other, share
         if most > _ENOUGH:
@@ -122,7 +119,7 @@ class _Frames:
         self._stiffness -= float(self._of_jump @ self._answer)
 
     def conformal(self) -> tuple[Floats, float]:
-        """Give a conformal map of period 1 with straight rims, scaled to the ring's area."""
+        """A conformal map of period 1 with straight rims, scaled to the ring's area."""
         u = -self._answer
         ux, uy = self._by_x @ u + self._jump_x, self._by_y @ u + self._jump_y
         v = self._solve(self._onto_x @ -uy + self._onto_y @ ux)
@@ -137,7 +134,7 @@ class _Frames:
         return np.stack([ux, uy, self._by_x @ v, self._by_y @ v], 1)
 
     def fitted(self, wanted: Floats) -> tuple[Floats, float]:
-        """Give the map, and the period, whose slopes come nearest to those wanted, (m, 4)."""
+        """The map, and the period, whose slopes come nearest to those wanted, (m, 4)."""
         y = self._solve(self._onto_x @ wanted[:, 0] + self._onto_y @ wanted[:, 1])
         pull = float((self._area * (self._jump_x * wanted[:, 0] + self._jump_y * wanted[:, 1])).sum())
         period = (pull - float(self._of_jump @ y)) / self._stiffness
@@ -155,7 +152,7 @@ class _Frames:
 
 
 def _gradients(V: Floats, F: Ints) -> tuple[Floats, Floats, Floats]:
-    """Give the slope of each corner's hat function along both axes of its face, (m, 3) each; areas."""
+    """The slope of each corner's hat function along both axes of its face, (m, 3) each; areas."""
     d, e = V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]
     length = np.maximum(np.linalg.norm(d, axis=1), 1e-300)
     ex = np.einsum("ij,ij->i", d, e) / length

@@ -1,22 +1,17 @@
-"""Divide a tube by short loops around it."""
+"""Cut a tube along paths of edges: open from end to end, and apart by short loops around it."""
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.tubes.cut_path import halfedges_along, left_corners
-from meshjig.charts.tubes.ends import Ends
+from meshjig.charts.tubes.harmonic_function import Ends
 from meshjig.errors import ChartError
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
+from meshjig.mesh.halfedges import border_halfedges, compact, edges, next_halfedge
 from meshjig.mesh.shortest_paths import edge_graph, shortest_way
 
-__all__ = ["across", "avoiding", "border_vertices", "divided"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+__all__ = ["across", "avoiding", "border_vertices", "divided", "halfedges_along", "left_corners"]
 
 _REACH = 1.5  # mean edges that a loop may leave its cut on either side
 _TRIES = 5  # each with twice the reach
@@ -88,7 +83,7 @@ def border_vertices(F: Ints) -> Ints:
 
 
 def avoiding(graph: Any, vertices: Ints) -> Any:
-    """Make all edges at some vertices so long that no way goes there that can go elsewhere."""
+    """Make all edges at some vertices so long that no path goes there that can go elsewhere."""
     from scipy.sparse import diags
 
     far = np.ones(graph.shape[0])
@@ -97,7 +92,7 @@ def avoiding(graph: Any, vertices: Ints) -> Any:
 
 
 def _loop(V: Floats, F: Ints, turn: Ints, off: Floats) -> Ints:
-    """Give the shortest loop around a tube among vertices that are little off, (n,), its cut.
+    """The shortest loop around a tube among vertices that are little off, (n,), its cut.
 
     It repeats its first vertex.
     """
@@ -107,11 +102,11 @@ def _loop(V: Floats, F: Ints, turn: Ints, off: Floats) -> Ints:
             continue
         G, kept = compact(F[faces])
         graph = _two_sheets(V[kept], G, turn.reshape(-1, 3)[faces].ravel(), 1 + off[kept] ** 2)
-        way = _once_around(graph, int(np.argmin(off[kept])))
-        if len(way):  # once more from the far side: a poor start would stay a spike
-            way = _once_around(graph, int(way[len(way) // 2]))
-        if len(way) and len(np.unique(way)) == len(way) - 1:
-            return kept[way]
+        path = _once_around(graph, int(np.argmin(off[kept])))
+        if len(path):  # once more from the far side: a poor start would stay a spike
+            path = _once_around(graph, int(path[len(path) // 2]))
+        if len(path) and len(np.unique(path)) == len(path) - 1:
+            return kept[path]
     x, y, z = V[np.argmin(off)]
     raise ChartError(
         f"no loop goes around the surface near ({x:.0f}, {y:.0f}, {z:.0f}) mm", hint="use --charts auto"
@@ -119,7 +114,7 @@ def _loop(V: Floats, F: Ints, turn: Ints, off: Floats) -> Ints:
 
 
 def _two_sheets(V: Floats, F: Ints, turn: Ints, toll: Floats) -> Any:
-    """Give the graph of edges over two copies of a mesh, joined over the line; (2 n, 2 n).
+    """The graph of edges over two copies of a mesh, joined over the line; (2 n, 2 n).
 
     An edge counts for its length times the mean toll (n,) at its ends.
     """
@@ -145,3 +140,47 @@ def _once_around(graph: Any, start: int) -> Ints:
 
 def _edge(V: Floats, F: Ints) -> float:
     return float(np.linalg.norm(V[F] - V[np.roll(F, -1, 1)], axis=2).mean())
+
+
+def halfedges_along(F: Ints, path: Ints) -> Ints:
+    """List the half-edges that run along a path of vertices, in its direction and against it."""
+    n = np.int64(int(F.max()) + 1)
+    a, b = F.ravel(), F[:, [1, 2, 0]].ravel()
+    steps = np.concatenate([path[:-1] * n + path[1:], path[1:] * n + path[:-1]])
+    return np.flatnonzero(np.isin(a * n + b, steps))
+
+
+def left_corners(F: Ints, path: Ints) -> Bools:
+    """Mark the corners that lie on the left of a path.
+
+    Parameters
+    ----------
+    F : (m, 3) int64, manifold
+    path : (k,) int64, vertices, each once; at its ends it reaches the border, and nowhere else. An
+        end inside the mesh has nothing on its left.
+
+    Returns
+    -------
+    (m, 3) bool
+    """
+    on_path = np.zeros(int(F.max()) + 1, bool)
+    on_path[path] = True
+    touching = np.flatnonzero(on_path[F].any(1))
+    G = F[touching]
+    twin = edges(G).twin
+    along = halfedges_along(G, path)
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    h = np.setdiff1d(h, along)
+    t = twin[h]
+    rows, cols = np.append(h, next_halfedge(h)), np.append(next_halfedge(t), t)
+    n, fan = connected(G.size, rows, cols)
+    place = np.full(len(on_path), -1)
+    place[path] = np.arange(len(path))
+    tail, head = place[G.ravel()[along]], place[G.ravel()[next_halfedge(along)]]
+    forth = head == tail + 1
+    is_left, is_right = np.zeros(n, bool), np.zeros(n, bool)
+    for side, some in ((is_left, along[forth]), (is_right, along[~forth])):
+        side[fan[some]] = side[fan[next_halfedge(some)]] = True
+    left = np.zeros(F.shape, bool)
+    left[touching] = (is_left & ~is_right)[fan].reshape(-1, 3) & on_path[G]
+    return left

@@ -4,15 +4,13 @@ from itertools import pairwise
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshjig.charts.flatten.flatten import FLAT_LIMITS
+from meshjig.charts.distortion import FLAT_LIMITS
 from meshjig.charts.tubes.harmonic_function import Girths
+from meshjig.mesh.arrays import Bools, Floats
 
-__all__ = ["Band", "Kind", "stack"]
+__all__ = ["Band", "Kind", "decompose_tube"]
 
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 _LEAST_SHARE = 0.9  # of a chart's area that must be within FLAT_LIMITS, as foreseen
 _FINE = 16  # steps of log stretch within FLAT_LIMITS
@@ -21,7 +19,7 @@ _REST = (3.0, 8.0)  # charts that an end without shape costs, and more for its s
 _SEAM = 0.3  # charts that a seam costs as long as the root of the area
 _WORST = 10.0  # charts that an area costs which is all out of limits
 _UNEVEN = 5.0  # charts that it costs when all girths are as far as limits allow from their mean
-_DOME = 4 / 3  # on a dome, way from the tip over girth grows that much faster than roundness
+_DOME = 4 / 3  # on a dome, distance from the tip over girth grows that much faster than roundness
 _WIDEST = 1.9  # times its least girth a ring's largest may be, or a cap's girth that of a flat disc
 _SPOILT = 0.03  # of a cap may be wider still: girths near its tip are not told well
 _SHORTEST = 0.08  # of its girth: a ring is no shorter
@@ -38,11 +36,11 @@ class Band(NamedTuple):
     stop: int
 
 
-def stack(slices: Girths, tips: tuple[bool, bool], refused: list[Band]) -> list[Band]:
+def decompose_tube(slices: Girths, tips: tuple[bool, bool], refused: list[Band]) -> list[Band]:
     """Divide a tube into the fewest rings and caps whose stretch stays within limits.
 
     A ring flattens well where its girth changes little; a cap where its girth grows like a
-    circle's with the way from its tip. Among equals, short seams and little stretch win.
+    circle's with the distance from its tip. Among equals, short seams and little stretch win.
 
     Parameters
     ----------
@@ -80,7 +78,7 @@ def stack(slices: Girths, tips: tuple[bool, bool], refused: list[Band]) -> list[
 
 
 def _cheapest(first: Floats, rings: Floats, last: Floats) -> list[int]:
-    """Give where the first end, at least one ring, and the last end meet; nothing where all cost inf."""
+    """Where the first end, at least one ring, and the last end meet; nothing where all cost inf."""
     n = len(first) - 1
     best, came = np.full(n + 1, np.inf), np.full(n + 1, -1)
     for stop in range(1, n + 1):
@@ -97,7 +95,7 @@ def _cheapest(first: Floats, rings: Floats, last: Floats) -> list[int]:
 
 
 def _cost(slices: Girths, share: Floats) -> Floats:
-    """Give what every band from slice i to before slice j costs, (n + 1, n + 1)."""
+    """What every band from slice i to before slice j costs, (n + 1, n + 1)."""
     n = len(slices.area)
     total = slices.area.sum()
     area = _lengths(slices.area)
@@ -109,7 +107,7 @@ def _cost(slices: Girths, share: Floats) -> Floats:
 
 
 def _spread_cost(slices: Girths) -> Floats:
-    """Give what it costs a ring, within limits too, that its girths differ, (n + 1, n + 1)."""
+    """What it costs a ring, within limits too, that its girths differ, (n + 1, n + 1)."""
     log, area = np.log(slices.girth), _lengths(slices.area)
     mean = _lengths(slices.area * log) / np.where(area > 0, area, 1.0)
     square = np.maximum(_lengths(slices.area * log**2) - mean**2 * area, 0.0)
@@ -136,7 +134,7 @@ def _cap_shares(slices: Girths) -> Floats:
 
 
 def _best_shares(area: Floats, log: Floats) -> Floats:
-    """Give the largest share of the area of each interval whose logs lie within limits of each other."""
+    """The largest share of the area of each interval whose logs lie within limits of each other."""
     width = np.log(FLAT_LIMITS[1] / FLAT_LIMITS[0]) * _SLACK
     cell = np.floor((log - log.min()) * _FINE / width).astype(np.int64)
     cell = np.minimum(cell, 20 * _FINE)
@@ -153,13 +151,13 @@ def _best_shares(area: Floats, log: Floats) -> Floats:
 
 
 def _lengths(step: Floats) -> Floats:
-    """Give the sum of steps i to j - 1 for all i, j, (n + 1, n + 1); negative below the diagonal."""
-    way = np.append(0.0, np.cumsum(step))
-    return way[None, :] - way[:, None]
+    """The sum of steps i to j - 1 for all i, j, (n + 1, n + 1); negative below the diagonal."""
+    along = np.append(0.0, np.cumsum(step))
+    return along[None, :] - along[:, None]
 
 
 def _spreads(girth: Floats) -> Floats:
-    """Give the largest over the least girth of slices i to j - 1, (n + 1, n + 1); 1 where there are none."""
+    """The largest over the least girth of slices i to j - 1, (n + 1, n + 1); 1 where there are none."""
     spread = np.ones((len(girth) + 1, len(girth) + 1))
     for start in range(len(girth)):
         tail = girth[start:]
@@ -175,8 +173,8 @@ def _mean_girths(slices: Girths) -> Floats:
 
 def _alike(area: Floats, band: Band, share: float = 0.8) -> Bools:
     """Mark the bands (i, j) that hold most of a given one, (n + 1, n + 1)."""
-    way = np.append(0.0, np.cumsum(area))
-    low, high = way[band.start], way[band.stop]
-    held = np.minimum(way[None, :], high) - np.maximum(way[:, None], low)
+    along = np.append(0.0, np.cumsum(area))
+    low, high = along[band.start], along[band.stop]
+    held = np.minimum(along[None, :], high) - np.maximum(along[:, None], low)
     like: Bools = held >= share * (high - low)
     return like

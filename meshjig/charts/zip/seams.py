@@ -6,14 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.charts.chart import Chart
-from meshjig.charts.cuts import chains, cut_faces
-from meshjig.charts.flatten.flatten import FLAT_LIMITS
-from meshjig.charts.zip.arcs import Fit, fits
-from meshjig.charts.zip.glue import glue
-from meshjig.mesh.boundary_loops import border_loop
+from meshjig.charts.cuts import cut_faces
+from meshjig.charts.distortion import within_limits
+from meshjig.charts.zip.glue import Fit, fits, glue
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.boundary_loops import border_loop, chains
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import edge_lengths, face_areas, singular_values
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["Arc", "Seams"]
 
@@ -51,8 +50,7 @@ class Seams:
         for number, chart in enumerate(charts):
             self._put(number, chart.faces, chart.uv, chart.corners)
             s = singular_values(V, F[chart.faces], chart.uv, chart.corners)
-            flat = (s[:, 1] >= FLAT_LIMITS[0]) & (s[:, 0] <= FLAT_LIMITS[1])
-            self._within[chart.faces] = self.area[chart.faces] * flat
+            self._within[chart.faces] = self.area[chart.faces] * within_limits(s)
         twin = self._e.twin
         h = np.flatnonzero(twin > np.arange(len(twin)))
         self._half = np.full(len(self._e.E), -1)  # a half-edge of each inner edge
@@ -63,7 +61,7 @@ class Seams:
         self._rim = np.unique(self._e.E[self._e.n_faces == 1])
 
     def charts(self) -> list[Chart]:
-        """Give the charts as they are."""
+        """The charts as they are."""
         out = []
         for number in self.numbers():
             faces = np.flatnonzero(self.chart == number)
@@ -93,7 +91,7 @@ class Seams:
         return found
 
     def overlap(self, arc: Arc) -> float:
-        """Give the share of all area by which two charts lie on each other when an arc's sides meet."""
+        """The share of all area by which two charts lie on each other when an arc's sides meet."""
         moved = self._ring[arc.second] * arc.fit.turn + arc.fit.shift
         return float(_polygon(self._ring[arc.first]).intersection(_polygon(moved)).area / self.area.sum())
 

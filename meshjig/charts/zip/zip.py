@@ -6,7 +6,7 @@ import numpy as np
 
 from meshjig.charts.chart import Chart
 from meshjig.charts.zip.seams import Arc, Seams
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.arrays import Floats, Ints
 
 __all__ = ["zip_charts"]
 
@@ -37,7 +37,7 @@ def zip_charts(
     charts : list of Chart, good ones, which cover all faces, without cuts inside
     least_shares : tuple of float
         Of the area that must lie within FLAT_LIMITS; the next is for what the one before left apart.
-    effort : float, about how many faces may be flattened on the way, for each of them
+    effort : float, about how many faces may be flattened meanwhile, for each of them
 
     Returns
     -------

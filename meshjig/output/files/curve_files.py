@@ -1,13 +1,22 @@
 """Curves as files: SVG for the plane, OBJ and DXF for space."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
-__all__ = ["write_dxf", "write_obj_lines", "write_svg"]
+__all__ = ["Curves", "write_dxf", "write_obj_lines", "write_svg"]
+
+
+@dataclass(frozen=True)
+class Curves:
+    """The cuts as polylines."""
+
+    plane: list[Floats] = field(default_factory=list)  # each (k, 2), mm, in the charts' plane
+    space: list[Floats] = field(default_factory=list)  # each (k, 3), mm
 
 
 def write_svg(path: Path, curves: Sequence[Floats], line_mm: float = 0.2) -> None:

@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from meshjig.errors import InputError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
-from meshjig.mesh.types import Floats, Ints
 from meshjig.mesh.validated import validated, weld
-from meshjig.scan.announced import gltf_shortfall
-from meshjig.scan.pictures import PictureReader
+from meshjig.scan.attachments import PictureReader
+from meshjig.scan.formats import gltf_shortfall
 from meshjig.scan.reading import load_by_trimesh
 
-__all__ = ["is_own_obj", "read_glb", "read_own_obj"]
+__all__ = ["NamedPiece", "is_own_obj", "read_glb", "read_own_obj"]
 
+NamedPiece = tuple[str, Floats, Ints]  # V (n, 3), mm; F (m, 3)
 _MM = 1000.0  # glTF has metres as its unit
 
 
@@ -26,17 +27,8 @@ def is_own_obj(path: Path) -> bool:
         return path.suffix.lower() == ".obj" and file.read(9) == b"# meshjig"
 
 
-def read_own_obj(path: Path) -> list[tuple[str, Floats, Ints]]:
+def read_own_obj(path: Path) -> list[NamedPiece]:
     """Read the groups of an OBJ that meshjig wrote: triangles only, corners without normals.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    list of (name, V, F)
-        V (n, 3) float64, mm; F (m, 3) int64.
 
     Raises
     ------
@@ -58,17 +50,8 @@ def read_own_obj(path: Path) -> list[tuple[str, Floats, Ints]]:
     return pieces
 
 
-def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
-    """Read the nodes of a GLB, each where the scene puts it.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    list of (name, V, F)
-        V (n, 3) float64, mm, metres in the file; F (m, 3) int64.
+def read_glb(path: Path) -> list[NamedPiece]:
+    """Read the nodes of a GLB, each where the scene puts it; metres in the file become mm.
 
     Raises
     ------
@@ -101,14 +84,14 @@ def read_glb(path: Path) -> list[tuple[str, Floats, Ints]]:
     return [_part(V, F, name, path) for name, V, F in arrays]
 
 
-def _part(V: Floats, F: Ints, name: str, path: Path) -> tuple[str, Floats, Ints]:
+def _part(V: Floats, F: Ints, name: str, path: Path) -> NamedPiece:
     V, F = validated(V, F, f"{name} in {path}")
     F, kept = compact(F)
     return name, *validated(*weld(V[kept], F), f"{name} in {path}")
 
 
 def _numbers(lines: list[str], start: str, kind: type) -> Floats:
-    """Give the first three numbers on every line that starts so, (n, 3); what follows them is colour."""
+    """The first three numbers on every line that starts so, (n, 3); what follows them is colour."""
     chosen = [line[2:] for line in lines if line.startswith(start)]
     rows = re.sub(r"/\d+", "", " ".join(chosen)).split()  # corner/picture: the corner matters here
     table: Floats = np.array(rows, dtype=object).astype(kind).reshape(max(len(chosen), 1), -1)

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.errors import InputError
-from meshjig.mesh.types import Floats, Ints
 from meshjig.mesh.validated import validated, weld
-from meshjig.output.files.read_3mf import read_3mf
-from meshjig.output.files.read_parts import is_own_obj, read_glb, read_own_obj
-from meshjig.runtime.bounded import allow_file
-from meshjig.scan.announced import ply_shortfall
-from meshjig.scan.pictures import PictureReader
+from meshjig.output.files.read_parts import NamedPiece, is_own_obj, read_glb, read_own_obj
+from meshjig.output.files.threemf import read_3mf
+from meshjig.output.report import Report, read_report
+from meshjig.runtime.bounded import Bounded, OutOfBounds, allow_file
+from meshjig.scan.attachments import PictureReader
+from meshjig.scan.formats import ply_shortfall
 from meshjig.scan.reading import check_file, load_by_trimesh
 
-__all__ = ["read_core", "read_pieces"]
+__all__ = ["PuzzleFiles", "read_core", "read_pieces", "read_puzzle_files"]
+
 
 MESHES = (".stl", ".obj", ".ply")  # a piece a file, but for an OBJ that meshjig wrote
 PACKAGES = (".3mf", ".glb")
-NamedPiece = tuple[str, Floats, Ints]
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
@@ -141,7 +141,7 @@ def _read_mesh(path: Path) -> NamedPiece:
 
 
 def _binary_stl(path: Path) -> tuple[Any, Any]:
-    """Give a soup of corners, or (None, None) where the file is no binary STL."""
+    """A soup of corners, or (None, None) where the file is no binary STL."""
     data = path.read_bytes()
     if len(data) == 0:
         raise InputError(f"{path} is empty")
@@ -171,3 +171,39 @@ def _by_trimesh(path: Path) -> tuple[Any, Any]:
 
 def _one_line(error: Exception) -> str:
     return (str(error).strip() or type(error).__name__).splitlines()[0]
+
+
+class PuzzleFiles(NamedTuple):
+    """What a folder, or files, of pieces hold."""
+
+    pieces: list[NamedPiece]
+    core: list[NamedPiece]
+    report: Report | None  # None where there is none
+
+
+def read_puzzle_files(paths: Sequence[str | os.PathLike[str]]) -> PuzzleFiles:
+    """Read pieces, core and report in a process of its own, within limits of memory and time.
+
+    Parameters
+    ----------
+    paths : see `read_pieces`. Only a single folder has a core, and a report.
+
+    Raises
+    ------
+    InputError
+        Nothing found, or a file that can't be read.
+    """
+    given = [os.fspath(path) for path in paths]
+    try:
+        return Bounded(__name__, "_read_all", given).result()
+    except OutOfBounds as error:
+        name = given[0] if len(given) == 1 else f"one of {len(given)} files"
+        raise InputError(f"{name} {error}", hint="export it again, or give its files one by one") from None
+
+
+def _read_all(paths: list[str]) -> PuzzleFiles:
+    report = Path(paths[0]) / "report.json" if len(paths) == 1 else None
+    there = report is not None and os.path.lexists(report)
+    return PuzzleFiles(
+        read_pieces(paths), read_core(paths), read_report(report) if report and there else None
+    )

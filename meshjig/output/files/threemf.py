@@ -1,17 +1,32 @@
 """3MF by lib3mf: one named and coloured object a piece."""
 
+from __future__ import annotations
+
 import ctypes
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from meshjig.errors import OutputError
+from meshjig.errors import InputError, OutputError
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.validated import validated, weld
 from meshjig.output.piece import Piece
-from meshjig.output.texture import Coat
+from meshjig.output.texture import Texture
+from meshjig.scan.three_mf import open_3mf
 
-__all__ = ["write_3mf"]
+__all__ = ["read_3mf", "write_3mf"]
+
+
+_MM = {
+    "MicroMeter": 1e-3,
+    "MilliMeter": 1.0,
+    "CentiMeter": 10.0,
+    "Inch": 25.4,
+    "Foot": 304.8,
+    "Meter": 1000.0,
+}
 
 
 def write_3mf(path: Path, pieces: Iterable[Piece], title: str = "meshjig puzzle") -> None:
@@ -51,8 +66,8 @@ def write_3mf(path: Path, pieces: Iterable[Piece], title: str = "meshjig puzzle"
             red, green, blue = (round(255 * channel) for channel in piece.colour)
             material = materials.AddMaterial(piece.name, wrapper.RGBAToColor(red, green, blue, 255))
             mesh.SetObjectLevelProperty(materials.GetResourceID(), material)
-            if piece.coat is not None:
-                _set_colours(wrapper, model, mesh, piece.coat)
+            if piece.texture is not None:
+                _set_colours(wrapper, model, mesh, piece.texture)
             model.AddBuildItem(mesh, identity)
         model.QueryWriter("3mf").WriteToFile(str(path))
     except lib3mf.ELib3MFException as error:
@@ -73,16 +88,16 @@ def _set_geometry(wrapper: Any, mesh: Any, piece: Piece) -> None:
     wrapper.checkError(mesh, status)
 
 
-def _set_colours(wrapper: Any, model: Any, mesh: Any, coat: Coat) -> None:
+def _set_colours(wrapper: Any, model: Any, mesh: Any, texture: Texture) -> None:
     """Give the corners of a mesh their colours, rounded to 32 steps a channel: a group holds each once."""
     import lib3mf
 
-    steps = np.rint(31 * coat.rgb.reshape(-1, 3)).astype(np.int64)
+    steps = np.rint(31 * texture.rgb.reshape(-1, 3)).astype(np.int64)
     distinct, number = np.unique(steps @ np.array([1024, 32, 1]), return_inverse=True)
     group = model.AddColorGroup()
     channels = np.rint(np.stack([distinct // 1024, distinct // 32 % 32, distinct % 32], 1) * 255 / 31)
     ids = np.array([group.AddColor(wrapper.RGBAToColor(*map(int, rgb), 255)) for rgb in channels], np.uint32)
-    rows = np.empty((len(coat.rgb), 4), np.uint32)
+    rows = np.empty((len(texture.rgb), 4), np.uint32)
     rows[:, 0] = group.GetResourceID()
     rows[:, 1:] = ids[number].reshape(-1, 3)
     properties = (lib3mf.TriangleProperties * len(rows)).from_buffer(rows)
@@ -90,3 +105,77 @@ def _set_colours(wrapper: Any, model: Any, mesh: Any, coat: Coat) -> None:
         mesh._handle, ctypes.c_uint64(len(rows)), properties
     )
     wrapper.checkError(mesh, status)
+
+
+def read_3mf(path: Path) -> list[tuple[str, Floats, Ints]]:
+    """Read what a 3MF would have built.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    list of (name, V, F)
+        V (n, 3) float64, mm, placed; F (m, 3) int64. An object made of components gives one piece a
+        component. Objects that no build item names are left out, as a printer would.
+
+    Raises
+    ------
+    InputError
+        No 3MF, nothing to build, or an object that is no mesh.
+    """
+    import lib3mf
+
+    pieces: list[tuple[str, Floats, Ints]] = []
+    try:
+        model = open_3mf(path)
+        unit = _MM[model.GetUnit().name]
+        items = model.GetBuildItems()
+        while items.MoveNext():
+            item = items.GetCurrent()
+            for mesh, placed in _meshes(item.GetObjectResource(), _matrix(item.GetObjectTransform())):
+                name = mesh.GetName() or f"{path.stem}_{len(pieces) + 1:03d}"
+                V, F = validated(*_geometry(mesh), f"{name} in {path}")
+                V, F = weld((V @ placed[:3, :3] + placed[3, :3]) * unit, F)
+                pieces.append((name, *validated(V, F, f"{name} in {path}")))
+    except lib3mf.ELib3MFException as error:
+        raise InputError(f"{path} can't be read as 3MF ({str(error).splitlines()[0]})") from None
+    if not pieces:
+        raise InputError(f"{path} holds no objects to build")
+    return pieces
+
+
+def _meshes(resource: Any, placed: Floats) -> Iterator[tuple[Any, Floats]]:
+    """List the meshes of an object, through its components, each with its place, (4, 4)."""
+    if resource.IsMeshObject():
+        yield resource, placed
+    elif resource.IsComponentsObject():
+        for k in range(resource.GetComponentCount()):
+            component = resource.GetComponent(k)
+            yield from _meshes(component.GetObjectResource(), _matrix(component.GetTransform()) @ placed)
+
+
+def _matrix(transform: Any) -> Floats:
+    """A transform as a matrix that multiplies row vectors from the right."""
+    matrix = np.eye(4)
+    matrix[:, :3] = np.array([list(row) for row in transform.Fields])
+    return matrix
+
+
+def _geometry(mesh: Any) -> tuple[Floats, Ints]:
+    """Take over whole buffers: the binding's own getters make a Python object of every vertex."""
+    import lib3mf
+
+    library = mesh._wrapper.lib
+    V = np.zeros((mesh.GetVertexCount(), 3), np.float32)
+    F = np.zeros((mesh.GetTriangleCount(), 3), np.uint32)
+    for array, kind, fetch in (
+        (V, lib3mf.Position, library.lib3mf_meshobject_getvertices),
+        (F, lib3mf.Triangle, library.lib3mf_meshobject_gettriangleindices),
+    ):
+        if len(array):
+            buffer = (kind * len(array)).from_buffer(array)
+            needed = ctypes.c_uint64(0)
+            mesh._wrapper.checkError(mesh, fetch(mesh._handle, ctypes.c_uint64(len(array)), needed, buffer))
+    return V.astype(np.float64), F.astype(np.int64)

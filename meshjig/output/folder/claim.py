@@ -15,9 +15,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from meshjig.errors import OutputError
-from meshjig.output.folder.exchange import exchange
-from meshjig.output.folder.lock import acquire, release
 from meshjig.output.folder.manifest import discard, read_manifest, stranger
+from meshjig.output.folder.system import acquire, exchange, release
 from meshjig.runtime.messages import tell
 from meshjig.runtime.signals import hold_signals
 

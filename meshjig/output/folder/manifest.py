@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from meshjig.errors import OutputError
-from meshjig.output.files.report_file import report_file
+from meshjig.output.report import report_file
 
 __all__ = ["REPORT", "Manifest", "discard", "read_manifest", "sign", "stranger"]
 

@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
-from meshjig.output.guide.light_model import LightModel, Stage
-from meshjig.output.guide.stage_rays import meet
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.output.guide.proxy import PlacedFaces, ProxyModel, meet
 from meshjig.output.pictures.view import View, view_of
 
 __all__ = ["Camera", "cameras", "choose_cameras"]
@@ -41,7 +40,7 @@ class Camera(NamedTuple):
         return f"from the {side}" + (" and above" if self.elevation > _ELEVATIONS[0] else "")
 
 
-def cameras(model: LightModel) -> list[Camera]:
+def cameras(model: ProxyModel) -> list[Camera]:
     """Give places all around a model, at the same distance."""
     from scipy.spatial import ConvexHull
 
@@ -50,21 +49,20 @@ def cameras(model: LightModel) -> list[Camera]:
     for elevation in _ELEVATIONS:
         for azimuth in _AZIMUTHS:
             view = view_of(outline, model.up, azimuth, elevation)
-            seen = (outline - view.eye) @ view.axes.T
-            extent = np.ptp(seen[:, :2] / seen[:, 2:], axis=0)
+            extent = np.ptp(view.on_plane(outline), axis=0)
             made.append(Camera(azimuth % 360, elevation, view, extent))
     return made
 
 
 def choose_cameras(
-    model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera], last: int
+    model: ProxyModel, placed: PlacedFaces, new: Sequence[int], places: Sequence[Camera], last: int
 ) -> list[tuple[int, list[int]]]:
     """Choose the places that show the new pieces best.
 
     Parameters
     ----------
-    model : LightModel
-    stage : Stage, what is there, the new pieces included
+    model : ProxyModel
+    placed : PlacedFaces, what is there, the new pieces included
     new : sequence of int, pieces counted from 0
     places : sequence of Camera
     last : int
@@ -76,7 +74,7 @@ def choose_cameras(
         One place with all pieces; more where some can hardly be seen from the first, but from another:
         each with those pieces that it is there for.
     """
-    shown = np.minimum(_seen(model, stage, new, places) / _ENOUGH, 1)
+    shown = np.minimum(_seen(model, placed, new, places) / _ENOUGH, 1)
     total = shown.sum(axis=1)
     total[last] += _SAME * len(new)
     chosen = [int(total.argmax())]
@@ -97,12 +95,12 @@ def choose_cameras(
     return [(camera, mine) for camera, mine in zip(chosen, whose, strict=True) if mine]
 
 
-def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[Camera]) -> Floats:
+def _seen(model: ProxyModel, placed: PlacedFaces, new: Sequence[int], places: Sequence[Camera]) -> Floats:
     """Tell how much of each new piece is seen from each place, in shares of half its surface, (c, p).
 
     Rays go from the eyes to some faces of each piece; those count that meet nothing else before.
     """
-    owner = stage.scene.id[: stage.n_faces]
+    owner = placed.scene.id[: placed.n_faces]
     faces = [_some(np.flatnonzero(owner == piece)) for piece in new]
     face, piece = np.concatenate(faces), np.repeat(np.arange(len(new)), [len(some) for some in faces])
     A = model.area_vector[face]
@@ -114,9 +112,9 @@ def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[
     toward = model.middle[face] - eye[:, None]
     facing = -np.einsum("cfk,fk->cf", toward, A) / np.linalg.norm(toward, axis=2)
     camera, ray = np.nonzero(facing > 0)
-    met = meet(stage, eye[camera], toward[camera, ray].astype(np.float32))
-    near = met.depth > (1 - _BEFORE) / stage.scene.radius  # thin parts may be one sheet, twice
-    free = near & (met.face >= 0) & (stage.scene.id[met.face] == owner[face[ray]])
+    met = meet(placed, eye[camera], toward[camera, ray].astype(np.float32))
+    near = met.depth > (1 - _BEFORE) / placed.scene.radius  # thin parts may be one sheet, twice
+    free = near & (met.face >= 0) & (placed.scene.id[met.face] == owner[face[ray]])
     value = (facing[camera, ray] * worth[ray])[free]
     n = len(new)
     seen = np.bincount((camera * n + piece[ray])[free], value, len(places) * n).reshape(-1, n)
@@ -124,5 +122,5 @@ def _seen(model: LightModel, stage: Stage, new: Sequence[int], places: Sequence[
 
 
 def _some(faces: Ints) -> Ints:
-    """Give every few of many."""
+    """A few of many faces, evenly spaced."""
     return faces[np.linspace(0, len(faces) - 1, min(len(faces), _RAYS)).astype(np.int64)]

@@ -5,26 +5,41 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OutputError
-from meshjig.output.guide.cover import draw_cover, title_of, trimmed
-from meshjig.output.guide.light_model import joint_of
-from meshjig.output.guide.pages import Page, Sheets
-from meshjig.output.guide.parts_pages import parts_pages
-from meshjig.output.guide.piece_outlines import outlines
+from meshjig.mesh.arrays import Bools
+from meshjig.output.guide.pages import LEFT, RIGHT, WIDTH, Document, Page, text_width
+from meshjig.output.guide.parts_pages import outlines, parts_pages
+from meshjig.output.guide.proxy import join_pieces
 from meshjig.output.guide.steps_pages import steps_pages
 from meshjig.output.guide.table_pages import table_pages
 from meshjig.output.order import assembly_of
-from meshjig.output.pictures.whole import draw_whole
+from meshjig.output.pictures.preview import draw_whole
 from meshjig.output.piece import Piece
+from meshjig.output.report import title_of
 
-__all__ = ["FILE", "write_guide"]
+__all__ = ["FILE", "cover_of_preview", "trimmed", "write_guide"]
+
 
 FILE = "guide.pdf"
+
+_PICTURE = (160.0, 140.0)  # mm
+_WHITE = 250
+_TITLE = 30.0  # points; less where a name is long
+_BOOK = (
+    "In every picture the pieces placed so far are pale; the new ones are hatched, have dark borders and "
+    "carry their numbers. The lightest shape behind is the finished model. A step that can't be shown from "
+    "one side has more pictures."
+)
+_UNVERIFIED = (
+    "The order goes from the bottom up, each piece beside one that is there already. Nobody has made sure "
+    "that every piece can get to its place in it: where one does not go in, put it in before its neighbours."
+)
+_VERIFIED = "The order was checked: in it, every piece can get to its place."
 
 
 def write_guide(
@@ -66,10 +81,10 @@ def write_guide(
         given = None if cover is None else cover()
         return trimmed(draw_whole(pieces) if given is None else given)
 
-    joint = joint_of(pieces)
+    joined = join_pieces(pieces)
     chapters = [
-        ("What you have", parts_pages(outlines(joint), on_plate)),
-        ("Putting it together", steps_pages(joint, assembly.steps, picture)),
+        ("What you have", parts_pages(outlines(joined), on_plate)),
+        ("Putting it together", steps_pages(joined, assembly.steps, picture)),
     ]
     if len(listed) == len(pieces):
         neighbours = [entry["neighbours"] for entry in listed]
@@ -77,16 +92,88 @@ def write_guide(
     starts = np.cumsum([2, *(len(pages) for _, pages in chapters)]).tolist()
     contents = [(name, start) for (name, _), start in zip(chapters, starts, strict=False)]
     n_plates = len({plate for plate in on_plate if plate is not None})
-    with Sheets(path, title_of(report), n_pages=starts[-1] - 1) as sheets:
-        draw_cover(sheets, pieces, report, picture(), contents, n_plates=n_plates, verified=assembly.verified)
-        sheets.end_page("")
+    facts = _facts(pieces, report, n_plates)
+    first = _Cover(title_of(report), len(pieces), facts, contents, assembly.verified)
+    with Document(path, first.title, n_pages=starts[-1] - 1) as document:
+        _draw_cover(document, first, picture())
+        document.end_page("")
         for name, pages in chapters:
-            _write(sheets, name, pages)
+            _write(document, name, pages)
 
 
-def _write(sheets: Sheets, name: str, pages: Sequence[Page]) -> None:
+def _write(document: Document, name: str, pages: Sequence[Page]) -> None:
     for number, draw in enumerate(pages):
         if number == 0:
-            sheets.bookmark(name)
-        draw(sheets)
-        sheets.end_page(name)
+            document.bookmark(name)
+        draw(document)
+        document.end_page(name)
+
+
+def cover_of_preview(path: Path) -> NDArray[np.uint8]:
+    """Cut the first of the four pictures out of preview.png: the puzzle put together."""
+    from PIL import Image
+
+    with Image.open(path) as sheet:
+        return np.asarray(sheet.crop((0, 0, sheet.width // 2, sheet.height // 2)).convert("RGB"))
+
+
+def trimmed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Leave out the white border of a picture."""
+    dark: Bools = np.any(picture < _WHITE, axis=2)
+    rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
+    if not len(rows):
+        return picture
+    return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+
+
+class _Cover(NamedTuple):
+    """What the first page says."""
+
+    title: str
+    n_pieces: int
+    facts: list[tuple[str, str]]
+    contents: list[tuple[str, int]]  # chapters and their pages
+    verified: bool  # somebody made sure that the order works
+
+
+def _draw_cover(document: Document, cover: _Cover, picture: NDArray[np.uint8]) -> None:
+    size = min(_TITLE, _TITLE * (RIGHT - LEFT) / text_width(cover.title, _TITLE, strong=True))
+    document.text(LEFT, 38, cover.title, size, strong=True)
+    document.text(
+        LEFT, 47, f"A jigsaw puzzle of {_count(cover.n_pieces, 'piece')}, in three dimensions", 13, grey=0.3
+    )
+    width, height = _PICTURE
+    document.fitted((WIDTH - width) / 2, 56, width, height, picture)
+    each = (RIGHT - LEFT) / len(cover.facts)
+    document.line(LEFT, 206, RIGHT, 206, grey=0.6)
+    for k, (what, value) in enumerate(cover.facts):
+        document.text(LEFT + k * each, 213, what, 8, grey=0.35)
+        document.text(LEFT + k * each, 219, value, 11, strong=True)
+    document.line(LEFT, 224, RIGHT, 224, grey=0.6)
+    y = 235.0
+    document.text(LEFT, y, "How to read this guide", 11, strong=True)
+    y = document.paragraph(LEFT, y + 6, 112, _BOOK)
+    document.paragraph(LEFT, y + 2, 112, _VERIFIED if cover.verified else _UNVERIFIED)
+    y, left = 235.0, LEFT + 126
+    document.text(left, y, "Contents", 11, strong=True)
+    for chapter, page in cover.contents:
+        y += 6
+        document.text(left, y, chapter, 9, grey=0.2)
+        document.text(RIGHT, y, str(page), 9, align="right", grey=0.2)
+
+
+def _facts(pieces: Sequence[Piece], report: Mapping[str, Any], n_plates: int) -> list[tuple[str, str]]:
+    low = np.min([piece.V.min(axis=0) for piece in pieces], axis=0)
+    high = np.max([piece.V.max(axis=0) for piece in pieces], axis=0)
+    facts = [("Size", " × ".join(f"{side:.0f}" for side in high - low) + " mm")]
+    options = report.get("options", {})
+    facts += [
+        (name.capitalize(), f"{options[name]:g} mm") for name in ("thickness", "clearance") if name in options
+    ]
+    if n_plates:
+        facts.append(("Printed on", _count(n_plates, "plate")))
+    return facts
+
+
+def _count(n: int, what: str) -> str:
+    return f"{n} {what}{'' if n == 1 else 's'}"

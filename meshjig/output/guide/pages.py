@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 
 __all__ = [
     "BOTTOM",
@@ -19,8 +19,8 @@ __all__ = [
     "RIGHT",
     "TOP",
     "WIDTH",
+    "Document",
     "Page",
-    "Sheets",
     "tag_size",
     "text_width",
     "wrapped",
@@ -36,7 +36,7 @@ _QUALITY = 85  # of JPEG
 Align = Literal["left", "middle", "right"]
 
 
-class Sheets:
+class Document:
     """A PDF that is written page by page, once its block ends. Equal calls give equal bytes."""
 
     def __init__(self, path: Path, title: str, n_pages: int) -> None:
@@ -62,7 +62,7 @@ class Sheets:
         self._pen.showPage()
         self._page += 1
 
-    def __enter__(self) -> Sheets:
+    def __enter__(self) -> Document:
         from reportlab import rl_config
 
         rl_config.useA85 = 0  # slow, and a quarter larger
@@ -182,7 +182,7 @@ class Sheets:
         self.text(x, y + 0.36 * size / _POINT, words, size, strong=True, align="middle")
 
 
-Page = Callable[[Sheets], None]  # draws one
+Page = Callable[[Document], None]  # draws one
 
 
 def text_width(words: str, size: float, *, strong: bool = False) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshjig.mesh.types import Bools, Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints
 
 __all__ = ["Label", "place_labels"]
 
@@ -64,7 +64,7 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
 
 
 def _widest(mask: Bools) -> tuple[float, float, float]:
-    """Give the middle and radius of the largest circle within a mask, radius 0 for a mere speck."""
+    """The middle and radius of the largest circle within a mask, radius 0 for a mere speck."""
     from scipy.ndimage import distance_transform_edt
 
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
@@ -93,7 +93,7 @@ def _overlaps(boxes: Floats, taken: list[Floats]) -> Bools:
 
 
 def _beside(x: float, y: float, w: float, h: float, crowd: list[Ints], taken: list[Floats]) -> Floats:
-    """Give the best box near a point: free, near, off the new pieces, and rather off the model too."""
+    """The best box near a point: free, near, off the new pieces, and rather off the model too."""
     turn, far = np.meshgrid(
         2 * np.pi * np.arange(_TURNS) / _TURNS, (1.0 + 0.5 * np.arange(_FAR)) * (w + h) / 2
     )
@@ -117,7 +117,7 @@ def _summed(mask: Bools) -> Ints:
 
 
 def _share(total: Ints, boxes: Floats) -> Floats:
-    """Give how much of each box (k, 4) is set, (k,)."""
+    """How much of each box (k, 4) is set, (k,)."""
     most = np.array(total.shape)[[1, 0, 1, 0]] - 1
     left, top, right, bottom = np.clip(np.rint(boxes).astype(np.int64), 0, most).T
     inside = total[bottom, right] - total[top, right] - total[bottom, left] + total[top, left]

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.measure import unit
-from meshjig.mesh.types import Bools, Floats, Ints
-from meshjig.output.guide.light_model import Stage
-from meshjig.output.guide.stage_rays import Floats32, meet, ways
+from meshjig.mesh.rays import Floats32
+from meshjig.output.guide.proxy import PlacedFaces, meet
 from meshjig.output.pictures.view import View
 
-__all__ = ["Frame", "Picture", "draw_step", "silhouette"]
+__all__ = ["Frame", "StepPicture", "draw_step", "silhouette"]
 
 _ROUGH = 3  # pixels between the rays that find a silhouette
 _COARSE = 4  # pixels between the rays that find out where the model is
@@ -44,28 +44,28 @@ class Frame(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Picture:
+class StepPicture:
     """What was drawn, and whose pixels are whose."""
 
     rgb: NDArray[np.uint8]  # (height, width, 3)
     piece: Ints  # (height, width), counted from 0; -1 is paper
 
 
-def silhouette(stage: Stage, view: View, frame: Frame) -> Bools:
+def silhouette(placed: PlacedFaces, view: View, frame: Frame) -> Bools:
     """Find out where a model is in a picture, (height, width), roughly."""
     from scipy.ndimage import binary_closing
 
-    found = np.pad(_grid(stage, view, frame, _ROUGH), 2)
+    found = np.pad(_grid(placed, view, frame, _ROUGH), 2)
     found = binary_closing(found, iterations=2)[2:-2, 2:-2]  # rays slip through between pieces
     return found.repeat(_ROUGH, 0).repeat(_ROUGH, 1)[: frame.height, : frame.width]
 
 
-def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost: Bools) -> Picture:
+def draw_step(placed: PlacedFaces, view: View, frame: Frame, new: Sequence[int], ghost: Bools) -> StepPicture:
     """Draw a step.
 
     Parameters
     ----------
-    stage : Stage, what is there
+    placed : PlacedFaces, what is there
     view : View
     frame : Frame
     new : sequence of int, the pieces that come new, counted from 0
@@ -73,14 +73,14 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
 
     Returns
     -------
-    Picture
+    StepPicture
     """
     from scipy.ndimage import uniform_filter
 
-    scene = stage.scene
-    row, column = np.nonzero(_worth_a_ray(stage, view, frame))
+    scene = placed.scene
+    row, column = np.nonzero(_worth_a_ray(placed, view, frame))
     x, y = frame.plane(column.astype(np.float64) + 0.5, row.astype(np.float64) + 0.5)
-    met = meet(stage, view.eye, ways(view, x, y))
+    met = meet(placed, view.eye, view.rays(x, y))
     hit = np.flatnonzero(met.face >= 0)
     row, column, face = row[hit], column[hit], met.face[hit]
     piece = np.full(ghost.shape, -1)
@@ -98,27 +98,27 @@ def draw_step(stage: Stage, view: View, frame: Frame, new: Sequence[int], ghost:
     tint = np.array([_PLACED, _NEW], np.float32)[fresh[row, column].astype(np.int64)]
     rgb[row, column] = tint * light[:, None]
     rgb *= (1 - _ink(piece, depth, fresh))[..., None]
-    return Picture(np.rint(255 * np.clip(rgb, 0, 1)).astype(np.uint8), piece)
+    return StepPicture(np.rint(255 * np.clip(rgb, 0, 1)).astype(np.uint8), piece)
 
 
-def _grid(stage: Stage, view: View, frame: Frame, step: int) -> Bools:
+def _grid(placed: PlacedFaces, view: View, frame: Frame, step: int) -> Bools:
     """Tell where there is something, for every so many pixels."""
     rows, columns = np.mgrid[0 : frame.height : step, 0 : frame.width : step] + step / 2
-    met = meet(stage, view.eye, ways(view, *frame.plane(columns.ravel(), rows.ravel())))
+    met = meet(placed, view.eye, view.rays(*frame.plane(columns.ravel(), rows.ravel())))
     found: Bools = (met.face >= 0).reshape(rows.shape)
     return found
 
 
-def _worth_a_ray(stage: Stage, view: View, frame: Frame) -> Bools:
+def _worth_a_ray(placed: PlacedFaces, view: View, frame: Frame) -> Bools:
     """Mark the pixels around those of a coarse grid that show something."""
     from scipy.ndimage import binary_dilation
 
-    near = binary_dilation(_grid(stage, view, frame, _COARSE), np.ones((3, 3), bool))
+    near = binary_dilation(_grid(placed, view, frame, _COARSE), np.ones((3, 3), bool))
     return near.repeat(_COARSE, 0).repeat(_COARSE, 1)[: frame.height, : frame.width]
 
 
 def _shade(normal: Floats32, view: View) -> Floats32:
-    """Give how bright vertices look, (n,): with little contrast, so that numbers can be read on them."""
+    """How bright vertices look, (n,): with little contrast, so that numbers can be read on them."""
     lamp = (unit(np.array(_LAMP)) @ view.axes).astype(np.float32)
     toward_eye, up = -view.axes[2].astype(np.float32), view.axes[1].astype(np.float32)
     lit = np.clip(normal @ lamp, 0, 1)
@@ -133,7 +133,7 @@ def _fade(shape: tuple[int, ...]) -> Floats32:
 
 
 def _ink(piece: Ints, depth: Floats32, fresh: Bools) -> Floats32:
-    """Give how black borders and hatching make each pixel, 0 to 1."""
+    """How black borders and hatching make each pixel, 0 to 1."""
     thin, bold = np.zeros(piece.shape, np.float32), np.zeros(piece.shape, np.float32)
     for p, d, n, fine, strong in (
         (piece, depth, fresh, thin, bold),

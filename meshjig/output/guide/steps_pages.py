@@ -9,16 +9,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.types import Floats
+from meshjig.mesh.arrays import Floats
 from meshjig.output.guide.cameras import Camera, cameras, choose_cameras
-from meshjig.output.guide.light_model import Joint, Stage, light_model
-from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, tag_size, text_width, wrapped
+from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Document, Page, tag_size, text_width, wrapped
 from meshjig.output.guide.place_labels import Label, place_labels
+from meshjig.output.guide.proxy import JoinedPieces, PlacedFaces, proxy_model
 from meshjig.output.guide.step_picture import Frame, draw_step, silhouette
 
 __all__ = ["steps_pages"]
 
-Picture = Callable[[], NDArray[np.uint8]]  # gives (h, w, 3)
+DrawWhole = Callable[[], NDArray[np.uint8]]  # gives (h, w, 3)
 
 _GRIDS = ((2, 3), (3, 2))  # columns and rows of pictures on a page
 _LINE, _NUMBER = 3.4, 15.0  # mm: a line of pieces, and room for the number of a step
@@ -63,12 +63,12 @@ class _Grid:
         return (BOTTOM - _START + _GAP) / self.rows - _GAP - self.caption
 
 
-def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: Picture) -> list[Page]:
+def steps_pages(joined: JoinedPieces, steps: Sequence[Sequence[int]], whole: DrawWhole) -> list[Page]:
     """Draw all steps.
 
     Parameters
     ----------
-    joint : Joint
+    joined : JoinedPieces
     steps : sequence of sequence of int, pieces counted from 1
     whole : callable, gives a picture of the puzzle put together, for where the last page has room
 
@@ -76,7 +76,7 @@ def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: Picture) ->
     -------
     list of callables, each draws a page
     """
-    model = light_model(joint, steps)
+    model = proxy_model(joined, steps)
     places = cameras(model)
     extent = np.max([place.extent for place in places], axis=0)
     most = max(map(len, steps), default=0)
@@ -88,14 +88,14 @@ def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: Picture) ->
     for number, step in enumerate(steps):
         if not step:
             continue
-        stage, new = model.until(number), [piece - 1 for piece in step]
-        placed = model.V[: model.first_vertex[number + 1]]
-        chosen = choose_cameras(model, stage, new, places, last)
+        placed, new = model.until(number), [piece - 1 for piece in step]
+        points = model.V[: model.first_vertex[number + 1]]
+        chosen = choose_cameras(model, placed, new, places, last)
         for part, (camera, mine) in enumerate(chosen):
             place = places[camera]
-            frame = _frame(grid, _MARGIN * scale, place, placed)
-            ghost = silhouette(Stage(model.scene, len(model.scene.F)), place.view, frame)
-            picture = draw_step(stage, place.view, frame, mine if part else new, ghost)
+            frame = _frame(grid, _MARGIN * scale, place, points)
+            ghost = silhouette(PlacedFaces(model.scene, len(model.scene.F)), place.view, frame)
+            picture = draw_step(placed, place.view, frame, mine if part else new, ghost)
             labels = place_labels(picture.piece, mine, [_tag_pixels(piece) for piece in mine])
             name = "abcdefgh"[part % 8] if len(chosen) > 1 else ""
             shots.append(_Shot(number + 1, name, mine, place.words, picture.rgb, labels))
@@ -105,10 +105,9 @@ def steps_pages(joint: Joint, steps: Sequence[Sequence[int]], whole: Picture) ->
     return [partial(_draw, grid, page, whole if page is pages[-1] else None) for page in pages]
 
 
-def _frame(grid: _Grid, scale: float, place: Camera, placed: Floats) -> Frame:
+def _frame(grid: _Grid, scale: float, place: Camera, points: Floats) -> Frame:
     """Frame what is placed: never smaller than at a scale (mm a unit), and not much larger."""
-    seen = (placed - place.view.eye) @ place.view.axes.T
-    plane = seen[:, :2] / seen[:, 2:]
+    plane = place.view.on_plane(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
     size = np.array([grid.width, grid.height])
     fitting = _MARGIN * float((size / np.maximum(high - low, 1e-9)).min())
@@ -125,36 +124,36 @@ def _tag_pixels(piece: int) -> tuple[float, float]:
     return (width + 0.4) * _PIXELS, (height + 0.4) * _PIXELS
 
 
-def _draw(grid: _Grid, shots: Sequence[_Shot], whole: Picture | None, sheets: Sheets) -> None:
+def _draw(grid: _Grid, shots: Sequence[_Shot], whole: DrawWhole | None, document: Document) -> None:
     for k, shot in enumerate(shots):
         row, column = divmod(k, grid.columns)
         x = LEFT + column * (grid.width + _GAP)
         y = _START + row * (grid.height + grid.caption + _GAP)
-        _draw_shot(shot, x, y, grid, sheets)
+        _draw_shot(shot, x, y, grid, document)
     used = -(-len(shots) // grid.columns)
     if whole is not None and used < grid.rows:
         y = _START + used * (grid.height + grid.caption + _GAP)
-        sheets.line(LEFT, y, RIGHT, y, width=0.3, grey=0.3)
-        sheets.text(LEFT, y + 7, "Done", 17, strong=True)
-        sheets.fitted(LEFT, y + grid.caption, RIGHT - LEFT, BOTTOM - y - grid.caption, whole())
+        document.line(LEFT, y, RIGHT, y, width=0.3, grey=0.3)
+        document.text(LEFT, y + 7, "Done", 17, strong=True)
+        document.fitted(LEFT, y + grid.caption, RIGHT - LEFT, BOTTOM - y - grid.caption, whole())
 
 
-def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, sheets: Sheets) -> None:
-    sheets.line(x, y, x + grid.width, y, width=0.3, grey=0.3)
+def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, document: Document) -> None:
+    document.line(x, y, x + grid.width, y, width=0.3, grey=0.3)
     number = f"{shot.step}{shot.part}"
-    sheets.text(x, y + 7, number, 17, strong=True)
+    document.text(x, y + 7, number, 17, strong=True)
     left = x + max(text_width(number, 17, strong=True) + 3, 11)
     lines = wrapped(", ".join(str(piece + 1) for piece in shot.new), _WORDS, x + grid.width - left)
     for k, words in enumerate(lines):
-        sheets.text(left, y + 4 + _LINE * k, words, _WORDS)
-    sheets.text(left, y + 4 + _LINE * len(lines), shot.place, 6.5, grey=0.4)
+        document.text(left, y + 4 + _LINE * k, words, _WORDS)
+    document.text(left, y + 4 + _LINE * len(lines), shot.place, 6.5, grey=0.4)
     top = y + grid.caption
-    sheets.picture(x, top, grid.width, grid.height, shot.rgb)
+    document.picture(x, top, grid.width, grid.height, shot.rgb)
     for label in shot.labels:
         if label.tip is not None:
             end = x + label.tip[0] / _PIXELS, top + label.tip[1] / _PIXELS
-            sheets.line(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, *end, width=0.25)
-            sheets.dot(*end)
+            document.line(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, *end, width=0.25)
+            document.dot(*end)
     for label in shot.labels:
         number = str(label.piece + 1)
-        sheets.tag(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, number, _TAG)
+        document.tag(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, number, _TAG)

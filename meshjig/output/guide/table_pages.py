@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
-from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Page, Sheets, text_width, wrapped
+from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Document, Page, text_width, wrapped
 
 __all__ = ["table_pages"]
 
@@ -75,19 +75,19 @@ def _columns(rows: Sequence[_Row], bottom: float) -> list[list[_Row]]:
     return columns
 
 
-def _draw(heads: Sequence[str], columns: Sequence[Sequence[_Row]], width: float, sheets: Sheets) -> None:
+def _draw(heads: Sequence[str], columns: Sequence[Sequence[_Row]], width: float, document: Document) -> None:
     for k, column in enumerate(columns):
         left = LEFT + k * (width + _GUTTER)
         for j, head in enumerate([*heads, "Neighbours"]):
-            sheets.text(left + 1 + j * _NUMBER, TOP, head, 7, grey=0.35)
-        sheets.line(left, TOP + 1.6, left + width, TOP + 1.6, grey=0.4)
+            document.text(left + 1 + j * _NUMBER, TOP, head, 7, grey=0.35)
+        document.line(left, TOP + 1.6, left + width, TOP + 1.6, grey=0.4)
         y = _FIRST
         for i, row in enumerate(column):
             height = _LINE * len(row.lines)
             if i % 2:
-                sheets.box(left, y, width, height, grey=0.94)
+                document.box(left, y, width, height, grey=0.94)
             for j, number in enumerate(row.numbers):
-                sheets.text(left + 1 + j * _NUMBER, y + 2.9, number, _SIZE, strong=j == 0)
+                document.text(left + 1 + j * _NUMBER, y + 2.9, number, _SIZE, strong=j == 0)
             for line, words in enumerate(row.lines):
-                sheets.text(left + 1 + len(heads) * _NUMBER, y + 2.9 + line * _LINE, words, _SIZE)
+                document.text(left + 1 + len(heads) * _NUMBER, y + 2.9 + line * _LINE, words, _SIZE)
             y += height

@@ -8,20 +8,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.boundary_loops import closed_loops
 from meshjig.mesh.halfedges import border_halfedges, edges, next_halfedge
-from meshjig.mesh.types import Atlas, Floats, Ints
+from meshjig.mesh.measure import singular_values
+from meshjig.mesh.types import Atlas
 from meshjig.output.pictures.colours import colours
 from meshjig.output.pictures.render import render
-from meshjig.output.pictures.scene import scene_of
-from meshjig.output.pictures.seam_lines import cuts, draw_lines
-from meshjig.output.pictures.stretch_colours import MOST, heat, stretch
+from meshjig.output.pictures.scene import draw_lines, scene_of
 from meshjig.output.pictures.view import View, guess_up, view_of
 
-__all__ = ["draw_atlas"]
+__all__ = ["MOST", "cuts", "draw_atlas", "heat", "stretch"]
+
 
 _SIDES = ((30.0, 18.0), (210.0, 18.0))  # azimuth and elevation, degrees
 _FRAME = 1.05
 _STRIP = 0.08  # of the lower pictures' height, free for the legend
+
+MOST = 1.5  # the darkest colour; tiles this much longer, or shorter, look wrong at a glance
+
+_STOPS = np.array([1.0, 1.1, 1.25, MOST])
+_COLOURS = np.array([(0.93, 0.95, 0.97), (0.98, 0.87, 0.55), (0.91, 0.45, 0.20), (0.55, 0.05, 0.15)])
 
 
 def draw_atlas(atlas: Atlas, folder: Path, size: int = 1600) -> None:
@@ -147,17 +154,32 @@ def _hex(colour: Floats) -> str:
 
 
 def _outlines(atlas: Atlas) -> list[str]:
-    """Give the border of every chart as SVG path data; the y of SVG runs downward."""
-    corner = atlas.F_uv.ravel()
-    h = border_halfedges(atlas.F_uv)
-    following = dict(zip(corner[h].tolist(), corner[next_halfedge(h)].tolist(), strict=True))
-    chart = dict(zip(corner[h].tolist(), atlas.chart_of_face[h // 3].tolist(), strict=True))
+    """The border of every chart as SVG path data; the y of SVG runs downward."""
+    corner, h = atlas.F_uv.ravel(), border_halfedges(atlas.F_uv)[::-1]
     data = [""] * atlas.n_charts
-    while following:
-        start, after = following.popitem()
-        loop = [start]
-        while after != start:
-            loop.append(after)
-            after = following.pop(after)
-        data[chart[start]] += "M" + "L".join(f"{x:.3f} {-y:.3f}" for x, y in atlas.uv[loop].tolist()) + "Z"
+    for loop in closed_loops(corner[h], corner[next_halfedge(h)]):
+        points = atlas.uv[corner[h[loop]]] * (1, -1)
+        path = "M" + "L".join(f"{x:.3f} {y:.3f}" for x, y in points.tolist()) + "Z"
+        data[atlas.chart_of_face[h[loop[0]] // 3]] += path
     return data
+
+
+def stretch(atlas: Atlas) -> Floats:
+    """Give how much longer or shorter a length may become in each face, (m,) float64, at least 1."""
+    s = singular_values(atlas.mesh.V, atlas.mesh.F, atlas.uv, atlas.F_uv)
+    return np.maximum(np.maximum(s[:, 0], 1 / np.maximum(s[:, 1], 1e-9)), 1.0)
+
+
+def heat(value: Floats) -> Floats:
+    """Give the colours (m, 3), sRGB, 0 to 1, of stretches (m,)."""
+    return np.stack([np.interp(value, _STOPS, _COLOURS[:, k]) for k in range(3)], 1)
+
+
+def cuts(atlas: Atlas) -> Ints:
+    """List the edges (k, 2), vertices of the mesh, over which an atlas is cut open; borders are none."""
+    F, G = atlas.mesh.F.ravel(), atlas.F_uv.ravel()
+    twin = edges(atlas.mesh.F).twin
+    h = np.flatnonzero(twin > np.arange(len(twin)))
+    after = next_halfedge(h)
+    apart = (G[h] != G[next_halfedge(twin[h])]) | (G[after] != G[twin[h]])
+    return np.stack([F[h[apart]], F[after[apart]]], 1)

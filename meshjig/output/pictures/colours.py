@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from meshjig.mesh.types import Floats, Ints
-from meshjig.output.pictures.srgb import to_linear, to_srgb
+from meshjig.mesh.arrays import Floats, Ints
 
-__all__ = ["colours", "oklab"]
+__all__ = ["colours", "oklab", "to_linear", "to_srgb"]
+
 
 _PALETTE = (
     "F28482 3F7FCF F7C948 3DAA7D C3A6F0 C56B45 5CC8D7 D1457B B5D56A 5B5FC7 F6A04D "
@@ -90,3 +90,14 @@ def _neighbours_of(n: int, pairs: Ints | None) -> list[Ints]:
     both = np.concatenate([pairs, pairs[:, ::-1]])
     both = both[np.argsort(both[:, 0], kind="stable")]
     return np.split(both[:, 1], np.searchsorted(both[:, 0], np.arange(1, n)))
+
+
+def to_linear(srgb: Floats) -> Floats:
+    """Take sRGB values, 0 to 1, to linear light."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def to_srgb(linear: Floats) -> Floats:
+    """Take linear light to sRGB values, 0 to 1; what a screen can't show is clipped."""
+    x = np.clip(linear, 0, 1)
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)

@@ -1,27 +1,33 @@
-"""Triangles for embree, and what rays from a camera meet."""
+"""Triangles ready for rays, what rays from a camera meet, and lines on what they see."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit, vertex_normals
-from meshjig.mesh.types import Floats, Ints
-from meshjig.output.pictures.srgb import to_linear
+from meshjig.mesh.mesh import concatenate
+from meshjig.mesh.rays import Floats32, RayScene
+from meshjig.output.pictures.colours import to_linear
 from meshjig.output.pictures.view import View
+from meshjig.output.piece import Piece
 
-__all__ = ["Hits", "Scene", "cast", "scene_of", "shifted"]
+__all__ = ["Hits", "Scene", "cast", "draw_lines", "scene_of", "scene_of_pieces", "shifted"]
 
-Floats32 = NDArray[np.float32]
+
 _CREASE = 0.85  # cosine between a face and its corner's normal below which the corner is not smoothed
+
+_NEAR = 4e-3  # radii of the model: what lies no farther behind what is seen is seen itself
+_INK = (30, 30, 30)
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Triangles ready to be hit by rays: centred and scaled to radius 1, since embree has 32-bit floats."""
+    """Triangles ready for rays: centred and scaled to radius 1, since Embree has 32-bit floats."""
 
-    embree: Any
+    rays: RayScene
     middle: Floats  # (3,)
     radius: float
     F: Ints  # (m, 3)
@@ -29,6 +35,10 @@ class Scene:
     vertex_normal: Floats32  # (n, 3)
     colour: Floats32  # (m, 3), linear light
     id: Ints  # (m,)
+
+    def scaled(self, points: Floats) -> Floats:
+        """Take points (..., 3) from mm to the scene's own scale."""
+        return (points - self.middle) / self.radius
 
 
 @dataclass(frozen=True)
@@ -64,26 +74,31 @@ def scene_of(V: Floats, F: Ints, colour_of_face: Floats, id_of_face: Ints) -> Sc
     normal = unit(area_vectors(V, F)).astype(np.float32)
     colour = to_linear(colour_of_face).astype(np.float32)
     corner = vertex_normals(V, F).astype(np.float32)
-    return Scene(
-        *_hittable(V, F), F=F, face_normal=normal, vertex_normal=corner, colour=colour, id=id_of_face
-    )
+    middle, radius = _ball(V)
+    return Scene(_rays(V, F), middle, radius, F, normal, corner, colour, id_of_face)
+
+
+def scene_of_pieces(pieces: Sequence[Piece]) -> Scene:
+    """Prepare pieces, each in its colours, its number from 0 as the id."""
+    V, F, _, piece_of_face = concatenate(pieces)
+    return scene_of(V, F, np.concatenate([piece.colour_of_face for piece in pieces]), piece_of_face)
 
 
 def shifted(scene: Scene, V: Floats) -> Scene:
     """Give the same scene with connected parts of it shifted, not turned, to vertices V (n, 3)."""
-    embree, middle, radius = _hittable(V, scene.F)
-    return replace(scene, embree=embree, middle=middle, radius=radius)
+    middle, radius = _ball(V)
+    return replace(scene, rays=_rays(V, scene.F), middle=middle, radius=radius)
 
 
-def _hittable(V: Floats, F: Ints) -> tuple[Any, Floats, float]:
-    from embreex.mesh_construction import TriangleMesh
-    from embreex.rtcore_scene import EmbreeScene
-
+def _ball(V: Floats) -> tuple[Floats, float]:
+    """The middle and the radius of a ball around points."""
     low, high = V.min(axis=0), V.max(axis=0)
-    middle, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-12)
-    embree = EmbreeScene(robust=True)  # without it, rays slip through between triangles
-    TriangleMesh(embree, ((V - middle) / radius).astype(np.float32), F.astype(np.int32))
-    return embree, middle, radius
+    return (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-12)
+
+
+def _rays(V: Floats, F: Ints) -> RayScene:
+    middle, radius = _ball(V)
+    return RayScene((V - middle) / radius, F, robust=True)
 
 
 def cast(scene: Scene, view: View, size: int, column: Floats, row: Floats) -> Hits:
@@ -102,12 +117,9 @@ def cast(scene: Scene, view: View, size: int, column: Floats, row: Floats) -> Hi
     """
     x = (view.centre[0] + view.half * (2 * column / size - 1)).astype(np.float32)
     y = (view.centre[1] + view.half * (1 - 2 * row / size)).astype(np.float32)
-    right, up, forward = view.axes.astype(np.float32)
-    toward = np.empty((len(column), 3), np.float32)
-    for k in range(3):
-        toward[:, k] = forward[k] + x * right[k] + y * up[k]
-    eye = ((view.eye - scene.middle) / scene.radius).astype(np.float32)
-    found = scene.embree.run(np.broadcast_to(eye, toward.shape).copy(), toward, output=1)
+    toward = view.rays(x, y)
+    eye = scene.scaled(view.eye).astype(np.float32)
+    found = scene.rays.hits(np.broadcast_to(eye, toward.shape), toward)
     ray = np.flatnonzero(found["primID"] >= 0)
     face = found["primID"][ray]
     toward = toward[ray]
@@ -131,3 +143,32 @@ def _smooth_normal(scene: Scene, face: Ints, u: Floats32, v: Floats32) -> Floats
         corner[creased] = flat[creased]
         total += weight[:, None] * corner
     return total / np.maximum(np.sqrt(np.einsum("ij,ij->i", total, total)), np.float32(1e-12))[:, None]
+
+
+def draw_lines(image: Any, scene: Scene, view: View, ends: Floats, size: int) -> None:
+    """Draw segments on a picture of a scene, as far as they are not hidden.
+
+    Parameters
+    ----------
+    image : PIL.Image, the picture
+    scene : Scene
+    view : View
+    ends : (k, 2, 3) float64, mm, on the surface
+    size : int, pixels along each side of it
+    """
+    from PIL import ImageDraw
+
+    place = (view.on_plane(ends) - view.centre) / view.half
+    pixel = (place * [1, -1] + 1) * size / 2
+    pen = ImageDraw.Draw(image)
+    for line in pixel[_visible(scene, view, ends.mean(1))].reshape(-1, 4).tolist():
+        pen.line(line, fill=_INK, width=2)
+
+
+def _visible(scene: Scene, view: View, points: Floats) -> Any:
+    """Tell which points (k, 3) of the surface nothing lies before, (k,) bool."""
+    eye = scene.scaled(view.eye)
+    toward = scene.scaled(points) - eye
+    far = np.linalg.norm(toward, axis=1)
+    found = scene.rays.hits(np.broadcast_to(eye, toward.shape), toward / far[:, None])
+    return (found["primID"] < 0) | (found["tfar"] > far - _NEAR)

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Floats, Ints
+from meshjig.mesh.rays import Floats32, Numbers
 
 __all__ = ["View", "axis_of", "guess_up", "view_of"]
 
@@ -23,6 +24,19 @@ class View:
     axes: Floats  # (3, 3), rows: right, up, forward
     centre: Floats  # (2,), middle of the frame in the plane at distance 1
     half: float  # half the larger side of the frame
+
+    def rays(self, x: Numbers, y: Numbers) -> Floats32:
+        """Give the directions (k, 3) of rays through points of the plane at distance 1."""
+        right, up, forward = self.axes.astype(np.float32)
+        out = np.empty((len(x), 3), np.float32)
+        for k in range(3):
+            out[:, k] = forward[k] + x * right[k] + y * up[k]
+        return out
+
+    def on_plane(self, points: Floats) -> Floats:
+        """Give where points (..., 3) are seen in the plane at distance 1, (..., 2)."""
+        seen = (points - self.eye) @ self.axes.T
+        return seen[..., :2] / seen[..., 2:]
 
 
 def axis_of(name: str) -> Floats:
@@ -77,7 +91,7 @@ def guess_up(V: Floats, F: Ints) -> Floats:
 
 
 def _common_directions(normal: Floats, size: Floats) -> Floats:
-    """Give the normals that most area has, roughly, at most ten."""
+    """The normals that most area has, roughly, at most ten."""
     cell = np.round(normal * 6).astype(np.int64) + 6
     code = cell @ np.array([169, 13, 1])
     weight = np.bincount(code, size, 13**3)

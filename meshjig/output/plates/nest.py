@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import OptionError
-from meshjig.mesh.types import Floats, Ints
-from meshjig.output.plates.pack import Spots, pack
+from meshjig.mesh.arrays import Floats, Ints
+from meshjig.output.plates.pack import Placements, pack
 from meshjig.output.plates.printers import Plate
 
 __all__ = ["nest"]
@@ -21,7 +21,7 @@ _SMOOTH = 0.05  # mm
 _CHORDS = 6  # a quarter of a circle
 
 
-def nest(outlines: Sequence[Any], plate: Plate, gap: float, seed: int = 0) -> Spots:
+def nest(outlines: Sequence[Any], plate: Plate, gap: float, seed: int = 0) -> Placements:
     """Nest outlines onto plates, the largest first, a plate at a time.
 
     Parameters
@@ -33,7 +33,7 @@ def nest(outlines: Sequence[Any], plate: Plate, gap: float, seed: int = 0) -> Sp
 
     Returns
     -------
-    Spots
+    Placements
         On no more plates than `meshjig.output.plates.pack.pack` needs: its packing where nesting saves none.
 
     Raises
@@ -71,7 +71,7 @@ def nest(outlines: Sequence[Any], plate: Plate, gap: float, seed: int = 0) -> Sp
         number[chosen], turn[chosen], shift[chosen] = k, placed[:, 0], placed[:, 1:] + gap / 2
         left = left[~np.isin(left, chosen)]
         if not len(left):
-            return Spots(number, turn, shift)
+            return Placements(number, turn, shift)
     return plain
 
 

@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.errors import OutputError
-from meshjig.mesh.types import Floats, Ints
-from meshjig.output.plates.footprint import convex_ring, least_rectangle, size_at
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.plates.printers import Plate
 
-__all__ = ["Spots", "fits", "pack"]
+__all__ = ["Placements", "convex_ring", "fits", "footprint", "least_rectangle", "pack", "size_at"]
+
 
 _MANY = 600  # outlines; more are packed by one rule only, since time grows with their square
 _STEP = 1e-3  # mm; the packer counts whole steps, so that nothing is lost to rounding
 _TURNS = np.radians(np.arange(180.0))  # tried where the least rectangle does not fit, but a diagonal might
 
+_SMOOTH = 0.05  # mm; outlines are drawn and packed no finer
+_SPECK = 0.01  # mm2; smaller holes are left out
 
-class Spots(NamedTuple):
+
+class Placements(NamedTuple):
     """Where pieces go: a point p of piece i to R(turn[i]) p + shift[i] on plate[i]."""
 
     plate: Ints  # (n,), counted from 0
@@ -32,7 +35,7 @@ class Spots(NamedTuple):
         return int(self.plate.max(initial=-1)) + 1
 
 
-def pack(outlines: Sequence[Floats], plate: Plate, gap: float) -> Spots:
+def pack(outlines: Sequence[Floats], plate: Plate, gap: float) -> Placements:
     """Pack outlines onto as few plates as a handful of greedy rules find.
 
     Parameters
@@ -45,7 +48,7 @@ def pack(outlines: Sequence[Floats], plate: Plate, gap: float) -> Spots:
 
     Returns
     -------
-    Spots
+    Placements
         An outline is turned to the least rectangle around it, or to a diagonal where only that fits. Of
         the packings with the fewest plates, the one with the fewest pieces on its last.
 
@@ -62,7 +65,7 @@ def pack(outlines: Sequence[Floats], plate: Plate, gap: float) -> Spots:
     number, place, quarter = min(_packings(steps, bed), key=_rank)
     turn = turn + np.where(quarter, np.pi / 2, 0.0)
     lowest = np.stack([_lowest(points, a) for points, a in zip(rings, turn, strict=True)])
-    return Spots(number, turn, place * _STEP + gap - lowest)
+    return Placements(number, turn, place * _STEP + gap - lowest)
 
 
 def fits(points: Floats, plate: Plate, gap: float) -> bool:
@@ -110,7 +113,7 @@ def _packings(steps: Ints, bed: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
 
 
 def _rank(packing: tuple[Ints, Ints, Ints]) -> tuple[int, int]:
-    """Give the last plate's number and how many lie on it; less is better."""
+    """The last plate's number and how many lie on it; less is better."""
     number = packing[0]
     last = int(number.max())
     return last, int((number == last).sum())
@@ -119,3 +122,69 @@ def _rank(packing: tuple[Ints, Ints, Ints]) -> tuple[int, int]:
 def _lowest(points: Floats, turn: float) -> Floats:
     cos, sin = np.cos(turn), np.sin(turn)
     return (points @ np.array([[cos, sin], [-sin, cos]])).min(axis=0)
+
+
+def footprint(V: Floats, F: Ints) -> Any:
+    """The shadow of a piece on the xy plane.
+
+    Parameters
+    ----------
+    V : (n, 3) float64, mm
+    F : (m, 3) int64, closed and oriented outward
+
+    Returns
+    -------
+    shapely.Polygon, mm
+        Within 0.05 mm of the shadow; the shadow of the convex hull where the piece is no proper solid.
+    """
+    import manifold3d
+    import shapely
+
+    mesh = manifold3d.Mesh64(np.ascontiguousarray(V), F.astype(np.uint64))
+    loops = manifold3d.Manifold(mesh).project().to_polygons()
+    outlines = [shapely.Polygon(loop) for loop in loops if len(loop) > 2]
+    if not outlines:
+        return shapely.MultiPoint(V[:, :2]).convex_hull
+    largest = max(outlines, key=lambda outline: outline.area)
+    holes = [hole.exterior for hole in outlines if not hole.exterior.is_ccw and hole.area > _SPECK]
+    return shapely.Polygon(largest.exterior, holes).simplify(_SMOOTH)
+
+
+def convex_ring(points: Floats) -> Floats:
+    """Give the corners of the convex hull of points (n, 2), counterclockwise; (k, 2)."""
+    from scipy.spatial import ConvexHull
+
+    return points[ConvexHull(points).vertices]
+
+
+def least_rectangle(ring: Floats) -> float:
+    """Find the turn at which a convex ring needs the least rectangle along the axes.
+
+    Parameters
+    ----------
+    ring : (k, 2) float64, convex, counterclockwise
+
+    Returns
+    -------
+    float
+        Radians, counterclockwise, in [0, pi); the rectangle is no deeper than wide.
+
+    References
+    ----------
+    Freeman and Shapira, "Determining the minimum-area encasing rectangle for an arbitrary closed curve",
+    1975: one side of it lies along a side of the ring.
+    """
+    side = np.roll(ring, -1, axis=0) - ring
+    turns = -np.arctan2(side[:, 1], side[:, 0])
+    sizes = size_at(ring, turns)
+    best = int(sizes.prod(axis=1).argmin())
+    turn = turns[best] + (np.pi / 2 if sizes[best, 1] > sizes[best, 0] else 0.0)
+    return float(turn % np.pi)
+
+
+def size_at(points: Floats, turns: Floats) -> Floats:
+    """Give the width and depth of points (n, 2) at turns (k,), radians; (k, 2)."""
+    cos, sin = np.cos(turns), np.sin(turns)
+    x = points @ np.stack([cos, -sin])
+    y = points @ np.stack([sin, cos])
+    return np.stack([np.ptp(x, axis=0), np.ptp(y, axis=0)], 1)

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.types import Floats, Ints
 
 __all__ = ["STEEP", "Pose", "lying_pose"]
 
@@ -79,15 +79,15 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
 
 
 def _extent(points: Floats) -> float:
-    """Give the largest distance, as far as it starts from a point that is outermost in some direction."""
+    """The largest distance, as far as it starts from a point that is outermost in some direction."""
     from scipy.spatial.distance import cdist
 
-    ways = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), -1).reshape(-1, 3)
-    return float(cdist(points[(points @ ways.T).argmax(axis=0)], points).max())
+    directions = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), -1).reshape(-1, 3)
+    return float(cdist(points[(points @ directions.T).argmax(axis=0)], points).max())
 
 
 def _centre_of_mass(V: Floats, F: Ints) -> Floats:
-    """Give the centre of mass of a solid, (3,); of its corners where it has no volume."""
+    """The centre of mass of a solid, (3,); of its corners where it has no volume."""
     middle = V.mean(axis=0)
     a, b, c = (V[F[:, k]] - middle for k in range(3))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c))
@@ -98,7 +98,7 @@ def _centre_of_mass(V: Floats, F: Ints) -> Floats:
 
 
 def _stable(V: Floats, hull: object, centre: Floats) -> Floats:
-    """Give the directions that point down in stable poses, (k, 3), the most stable first."""
+    """The directions that point down in stable poses, (k, 3), the most stable first."""
     simplices: Ints = hull.simplices.astype(np.int64)  # type: ignore[attr-defined]
     planes: Floats = hull.equations  # type: ignore[attr-defined]
     distance = -(planes[:, :3] @ centre + planes[:, 3])
@@ -120,14 +120,14 @@ def _distinct(directions: Floats) -> Floats:
 
 
 def _overhang(V: Floats, F: Ints, area: Floats, facing: Floats, down: Floats, plate: Floats) -> Floats:
-    """Give the area that leans over too far to be printed without support, mm2, (k,)."""
+    """The area that leans over too far to be printed without support, mm2, (k,)."""
     leaning = facing > np.cos(np.radians(STEEP)) * area[:, None]
     on_plate = (plate - V @ down.T < ON_PLATE)[F].all(axis=1)
     return area @ (leaning & ~on_plate)
 
 
 def _turn(down: Floats) -> Floats:
-    """Give the rotation that takes a direction to -z, (3, 3)."""
+    """The rotation that takes a direction to -z, (3, 3)."""
     z = -unit(down)
     x = unit(np.cross(np.eye(3)[np.abs(z).argmin()], z))
     return np.stack([x, np.cross(z, x), z])

@@ -5,17 +5,14 @@ from __future__ import annotations
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import area_vectors, unit
-from meshjig.mesh.types import Bools, Floats, Ints
-from meshjig.output.concatenate import together
+from meshjig.mesh.mesh import concatenate
 from meshjig.output.piece import Piece
 
 __all__ = ["PackedMesh", "pack"]
@@ -27,11 +24,23 @@ Bytes = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
+class PackedFacts:
+    """What the viewer's script needs to read the bytes."""
+
+    vertices: Ints  # (p,), how many each piece has
+    faces: Ints  # (p,)
+    step: float  # of the grid, mm
+    low: Floats  # (3,), where the grid begins, from the middle of the model's box
+    index: int  # width of an index in bytes
+    look: str | None  # what else a vertex has: "uv" into an image, "rgb", or nothing
+
+
+@dataclass(frozen=True)
 class PackedMesh:
     """Bytes, and what is needed to read them."""
 
     data: bytes  # deflated
-    facts: dict[str, Any]
+    facts: PackedFacts
 
 
 def pack(pieces: Sequence[Piece]) -> PackedMesh:
@@ -44,9 +53,6 @@ def pack(pieces: Sequence[Piece]) -> PackedMesh:
     Returns
     -------
     PackedMesh
-        ``facts`` say how many ``vertices`` and ``faces`` each piece has, the ``step`` of the grid in mm
-        and where it begins, ``low``, from the middle of the model's box; the width of an ``index`` in
-        bytes; and what else a vertex has, ``look``: "uv" into an image, "rgb", or null.
 
     Notes
     -----
@@ -55,7 +61,7 @@ def pack(pieces: Sequence[Piece]) -> PackedMesh:
     as 0 for the next new vertex, else how long ago a vertex was new; looks. All faces are kept. Vertices
     are doubled along creases, so that normals can be had by summing up over faces.
     """
-    V, F, _, piece_of_face = together(pieces)
+    V, F, _, piece_of_face = concatenate(pieces)
     creased, origin = _split_at_creases(V, F)
     looks = _looks(pieces, creased)
     corner, order = _in_order_of_use(looks.F)
@@ -73,14 +79,8 @@ def pack(pieces: Sequence[Piece]) -> PackedMesh:
     owner = np.empty(len(order), np.int64)
     owner[corner] = np.repeat(piece_of_face, 3)
     n = len(pieces)
-    facts = {
-        "vertices": np.bincount(owner, minlength=n),
-        "faces": np.bincount(piece_of_face, minlength=n),
-        "step": step,
-        "low": (low - high) / 2,
-        "index": width,
-        "look": looks.kind,
-    }
+    n_vertices, n_faces = (np.bincount(who, minlength=n) for who in (owner, piece_of_face))
+    facts = PackedFacts(n_vertices, n_faces, step, (low - high) / 2, width, looks.kind)
     return PackedMesh(zlib.compress(np.concatenate(blocks).tobytes(), 6), facts)
 
 
@@ -93,11 +93,10 @@ def _split_at_creases(V: Floats, F: Ints) -> tuple[Ints, Ints]:
     smooth = np.einsum("ij,ij->i", normal[h // 3], normal[t // 3]) > _SMOOTH
     h, t = h[smooth], t[smooth]
     rows, cols = np.concatenate([h, next_halfedge(h)]), np.concatenate([next_halfedge(t), t])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, cols)), shape=(F.size, F.size))
-    n, fan = connected_components(graph, directed=False)
+    n, fan = connected(F.size, rows, cols)
     origin = np.empty(n, np.int64)
     origin[fan] = F.ravel()
-    return fan.reshape(-1, 3).astype(np.int64), origin
+    return fan.reshape(-1, 3), origin
 
 
 @dataclass(frozen=True)
@@ -111,21 +110,21 @@ class _Looks:
 
 
 def _looks(pieces: Sequence[Piece], F: Ints) -> _Looks:
-    if all(piece.coat is None for piece in pieces):
+    if all(piece.texture is None for piece in pieces):
         n = int(F.max()) + 1
         return _Looks(None, F, np.arange(n), np.zeros((n, 0), np.uint8))
-    coats = [piece.coat for piece in pieces]
+    textures = [piece.texture for piece in pieces]
     outer = np.concatenate(
-        [np.zeros(len(p.F), bool) if c is None else c.outer for p, c in zip(pieces, coats, strict=True)]
+        [np.zeros(len(p.F), bool) if c is None else c.outer for p, c in zip(pieces, textures, strict=True)]
     )
-    if any(coat is not None and coat.uv is not None for coat in coats):
+    if any(texture is not None and texture.uv is not None for texture in textures):
         return _places(F, outer, _of_corners(pieces, "uv", 2))
     return _tints(F, outer, _of_corners(pieces, "rgb", 3))
 
 
 def _of_corners(pieces: Sequence[Piece], field: str, size: int) -> Floats:
     """Give what corners show, (3 m, size), 0 for pieces without."""
-    found = [None if piece.coat is None else getattr(piece.coat, field) for piece in pieces]
+    found = [None if piece.texture is None else getattr(piece.texture, field) for piece in pieces]
     return np.concatenate(
         [
             np.zeros((3 * len(p.F), size)) if x is None else x.reshape(-1, size)
@@ -164,5 +163,5 @@ def _in_order_of_use(F: Ints) -> tuple[Ints, Ints]:
 
 
 def _planes(values: Ints, width: int) -> Bytes:
-    """Give the lowest bytes of all values, then the next, and so on."""
+    """The lowest bytes of all values, then the next, and so on."""
     return np.concatenate([(values >> 8 * k & 255).astype(np.uint8) for k in range(width)])

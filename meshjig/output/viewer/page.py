@@ -8,6 +8,7 @@ import io
 import json
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,11 @@ import numpy as np
 
 from meshjig.errors import InputError, OutputError
 from meshjig.mesh.measure import face_areas
-from meshjig.output.concatenate import together
-from meshjig.output.files.report_file import report_text
+from meshjig.mesh.mesh import concatenate
 from meshjig.output.order import assembly_of
-from meshjig.output.pictures.explosion import ways_out
 from meshjig.output.pictures.view import guess_up, view_of
-from meshjig.output.piece import Piece
+from meshjig.output.piece import Piece, explosion
+from meshjig.output.report import report_text, title_of
 from meshjig.output.viewer.packed_mesh import pack
 
 __all__ = ["open_viewer", "viewer_html", "write_viewer"]
@@ -114,9 +114,9 @@ def _page(
     if not pieces:
         raise OutputError("a puzzle without pieces can't be shown", hint="make one first")
     packed = pack([*pieces, *core])
-    data = _data(pieces, report, plates) | {"core": len(core), "mesh": packed.facts}
+    data = _data(pieces, report, plates) | {"core": len(core), "mesh": asdict(packed.facts)}
     parts = {
-        "title": html.escape(_title(report)),
+        "title": html.escape(title_of(report)),
         "style": _file("viewer.css"),
         "data": _json(data),
         "mesh": base64.b64encode(packed.data).decode("ascii"),
@@ -126,8 +126,8 @@ def _page(
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _file("viewer.html"))
 
 
-def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int]) -> dict[str, Any]:
-    V, F, piece_of_vertex, _ = together(pieces)
+def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int]) -> dict[str, object]:
+    V, F, piece_of_vertex, _ = concatenate(pieces)
     up = guess_up(V, F)
     view = view_of(V, up, *_FRONT)
     off = V - (V.min(axis=0) + V.max(axis=0)) / 2
@@ -148,26 +148,23 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
             {
                 "id": number,
                 "colour": _hex(piece.colour),
-                "way": way,
+                "way": move,
                 "area": entry.get("area_mm2", face_areas(piece.V, piece.F).sum() / 2),
                 "neighbours": entry.get("neighbours", []),
                 "plate": plates.get(piece.name),
             }
-            for number, (piece, way, entry) in enumerate(
-                zip(pieces, ways_out(V, piece_of_vertex), told, strict=True), 1
+            for number, (piece, move, entry) in enumerate(
+                zip(pieces, explosion(V, piece_of_vertex), told, strict=True), 1
             )
         ],
     }
 
 
-def _title(report: Mapping[str, Any]) -> str:
-    name = report.get("input", {}).get("file")
-    return Path(str(name)).stem if name else "Puzzle"
-
-
 def _picture(pieces: Sequence[Piece]) -> str | None:
-    """Give the scan's image as a data address, no larger than screens can use."""
-    image = next((p.coat.image for p in pieces if p.coat is not None and p.coat.uv is not None), None)
+    """The scan's image as a data address, no larger than screens can use."""
+    image = next(
+        (p.texture.image for p in pieces if p.texture is not None and p.texture.uv is not None), None
+    )
     if image is None:
         return None
     small = image.convert("RGB")
@@ -181,7 +178,7 @@ def _hex(colour: tuple[float, float, float]) -> str:
     return "#" + "".join(f"{round(255 * x):02x}" for x in np.clip(colour, 0, 1))
 
 
-def _json(data: dict[str, Any]) -> str:
+def _json(data: Mapping[str, object]) -> str:
     """Give JSON on one line that can't end the script element that it stands in."""
     compact = json.dumps(json.loads(report_text(data)), separators=(",", ":"))
     return compact.replace("<", "\\u003c")

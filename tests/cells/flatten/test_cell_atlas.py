@@ -4,8 +4,10 @@ import shapely
 
 from meshjig.cells import cell_atlas, grow_cells
 from meshjig.cells.cell_mesh import CellMesh
+from meshjig.cells.flatten.cell_atlas import untangle
+from meshjig.cells.flatten.planar import folded, mirrored, patches
 from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import compact
+from meshjig.mesh.halfedges import border_halfedges, compact
 from meshjig.mesh.measure import face_areas, singular_values
 from meshjig.mesh.types import Mesh
 from tests.meshes import cylinder, disc, genus2, noisy, open_cup, sphere, torus
@@ -15,7 +17,9 @@ def one_cell(shape):
     """Take a whole disc for a cell."""
     V, F = shape
     none = np.zeros(len(V), np.int64)
-    return CellMesh(Mesh(V, F), np.arange(len(F)), none, np.ones((len(V), 3)), np.zeros(len(F), np.int64))
+    return CellMesh(
+        Mesh(V, F), Mesh(V, F), np.arange(len(F)), none, np.ones((len(V), 3)), np.zeros(len(F), np.int64)
+    )
 
 
 SHAPES = {
@@ -87,3 +91,33 @@ def test_cells_that_lie_whole_in_a_plane_stay_as_they_are_there():
     as_known = singular_values(cells.mesh.V, cells.mesh.F, plane)
     np.testing.assert_allclose(stretch[~torn], as_known[~torn] / np.sqrt(1.1), rtol=1e-6)
     np.testing.assert_allclose(stretch[torn], 1.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_vertices_that_were_pushed_over_their_neighbours_come_back(seed):
+    V, F = disc(1500)
+    p = patches(Mesh(V, F), np.zeros(len(F), np.int64))
+    uv = p.V[:, :2].copy()
+    rng = np.random.default_rng(seed)
+    inner = np.setdiff1d(np.arange(len(p.V)), p.F.ravel()[border_halfedges(p.F)])
+    pushed = rng.choice(inner, 12, replace=False)
+    uv[pushed] += rng.normal(scale=6.0, size=(12, 2))
+    assert mirrored(p, uv).sum() > 10
+    assert folded(p, uv).all()
+    flat = untangle(p, uv)
+    assert not mirrored(p, flat).any()
+    still = (flat == uv).all(1)
+    assert still.sum() > 0.75 * len(uv)
+    np.testing.assert_array_equal(np.isin(np.flatnonzero(~still), inner), True)
+
+
+def test_a_fold_at_the_rim_is_left_rather_than_made_worse():
+    V, F = disc(400)
+    p = patches(Mesh(V, F), np.zeros(len(F), np.int64))
+    uv = p.V[:, :2].copy()
+    rim = p.F.ravel()[border_halfedges(p.F)[0]]
+    uv[rim] *= 0.2
+    before = mirrored(p, uv).sum()
+    assert before > 0
+    assert mirrored(p, untangle(p, uv)).sum() <= before
+    np.testing.assert_array_equal(untangle(p, uv)[rim], uv[rim])

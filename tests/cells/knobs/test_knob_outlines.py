@@ -37,8 +37,8 @@ def test_every_border_has_a_whole_knob_that_holds(name):
     layout = knob_outlines(atlas, size=EDGE)
     cut = overlay(atlas, layout.outlines)
     found = interlock(cut, layout.knobs, cut.label)
-    assert layout.facts["borders"] == len(layout.pairs) == 24
-    assert layout.facts["knobs"] == 24
+    assert layout.facts.borders == len(layout.pairs) == 24
+    assert layout.facts.knobs == 24
     assert found.interlocked_borders(0.2) == 1.0
     assert len(found.neck) == 24
     assert (found.head / found.neck).min() > 1.5
@@ -85,14 +85,14 @@ def test_open_rims_stay_plain():
     layout = knob_outlines(atlas, size=EDGE)
     cut = overlay(atlas, layout.outlines)
     rim = cut.V[(cut.V[:, 1] < 1e-9) | (cut.V[:, 1] > EDGE - 1e-9)]
-    assert layout.facts["knobs"] == 2
+    assert layout.facts.knobs == 2
     assert len(rim) == 2 * 31  # as before: nothing cuts the long rims
 
 
 def test_a_cell_without_neighbours_stays_whole():
     atlas = square_cells(1)
     layout = knob_outlines(atlas, size=EDGE)
-    assert layout.facts["borders"] == 0
+    assert layout.facts.borders == 0
     assert overlay(atlas, layout.outlines).label.tolist() == [0] * len(atlas.mesh.F)
 
 
@@ -111,14 +111,14 @@ def test_necks_are_as_thick_as_asked_and_else_there_are_waves():
     layout = knob_outlines(atlas, size=EDGE, min_neck=4.5)
     cut = overlay(atlas, layout.outlines)
     found = interlock(cut, layout.knobs, cut.label)
-    assert layout.facts["stout_knobs"] == layout.facts["knobs"] == len(found.neck) > 12
+    assert layout.facts.stout_knobs == layout.facts.knobs == len(found.neck) > 12
     assert found.neck.min() >= 4.5
 
     layout = knob_outlines(atlas, size=EDGE, min_neck=6.0)
-    assert layout.facts["knobs"] == 0
+    assert layout.facts.knobs == 0
     assert (layout.knob_of_border == -1).all()
-    assert layout.facts["waves"] > 12
-    assert layout.facts["too_thin"] == layout.facts["long_without_knob"] == 24
+    assert layout.facts.waves > 12
+    assert layout.facts.too_thin == layout.facts.long_without_knob == 24
 
 
 def test_waves_have_no_undercut():
@@ -140,7 +140,7 @@ def test_knobs_keep_off_a_crease():
     normal = area_vectors(cut.V, cut.F)[inside]
     mean = unit(np.stack([np.bincount(knob, n) for n in normal.T], 1))
     off = np.degrees(np.arccos(np.clip((unit(normal) * mean[knob]).sum(1), -1, 1)))
-    assert layout.facts["knobs"] == 24
+    assert layout.facts.knobs == 24
     assert off.max() < 35
 
 

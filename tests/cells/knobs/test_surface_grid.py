@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from meshjig.cells.knobs.knob_lift import Lift
-from meshjig.cells.knobs.surface_grid import survey
+from meshjig.cells.knobs.surface_grid import Lift, surface_grid
 from meshjig.mesh.types import Atlas
 from tests.cells.knobs.knob_sheets import EDGE, rolled, square_cells
 
@@ -13,17 +12,17 @@ def test_normals_and_scale_are_those_of_a_cylinder():
     atlas = square_cells(3, shape=rolled)
     half = Atlas(atlas.mesh, atlas.uv / 2, atlas.F_uv, atlas.chart_of_face)
     place = half.uv[half.F_uv].mean(1)
-    ground = survey(half, 0.4)
+    grid = surface_grid(half, 0.4)
     at = atlas.mesh.V[atlas.mesh.F].mean(1)
     outward = at * [1, 0, 1] / np.linalg.norm(at * [1, 0, 1], axis=1, keepdims=True)
-    assert ((ground.normals(place) * outward).sum(1) > np.cos(np.radians(3))).all()
-    np.testing.assert_allclose(ground.scale(place), 2, rtol=1e-2)
+    assert ((grid.normals(place) * outward).sum(1) > np.cos(np.radians(3))).all()
+    np.testing.assert_allclose(grid.scale(place), 2, rtol=1e-2)
 
 
 def test_places_without_a_face_take_the_nearest():
-    ground = survey(square_cells(1, fine=2), 0.2)
-    np.testing.assert_allclose(ground.normals(np.full((3, 2), EDGE / 2)), [[0, 0, 1]] * 3)
-    np.testing.assert_allclose(ground.scale(np.array([[-50.0, 90.0], [1.0, 1.0]])), 1)
+    grid = surface_grid(square_cells(1, fine=2), 0.2)
+    np.testing.assert_allclose(grid.normals(np.full((3, 2), EDGE / 2)), [[0, 0, 1]] * 3)
+    np.testing.assert_allclose(grid.scale(np.array([[-50.0, 90.0], [1.0, 1.0]])), 1)
 
 
 @pytest.mark.parametrize("fine", [3, 12])

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.flatten.flatten import border_is_simple, flat_share, flatten, is_unflipped, unit_stretch
+from meshjig.charts.distortion import border_is_simple, flat_share, is_unflipped, unit_stretch
+from meshjig.charts.flatten.flatten import flatten
 from meshjig.mesh.measure import face_areas, singular_values
 from tests.charts.helpers import all_turn_left, half_tube
 from tests.meshes import half_sphere, noisy, open_cup, saddle

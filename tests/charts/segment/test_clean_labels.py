@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.segment.clean_labels import tidy
+from meshjig.charts.segment.clean_labels import clean_labels
 from meshjig.mesh.components import components, is_disc
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas
+from meshjig.mesh.mesh import Mesh
 from tests.meshes import disc, noisy, open_cup, sphere
 
 
@@ -14,7 +15,7 @@ def test_speckled_labels_come_out_as_whole_regions_without_pinches(mesh):
     x = mesh.V[mesh.F].mean(1)[:, 0]
     wanted = np.digitize(x, [-15, 15])
     speckled = np.where(rng.random(len(x)) < 0.15, rng.integers(-1, 3, len(x)), wanted)
-    label = tidy(mesh.F, speckled, face_areas(*mesh))
+    label = clean_labels(Mesh(*mesh), speckled, face_areas(*mesh))
     assert (label == wanted)[np.abs(np.abs(x) - 15) > 8].all()
     for k in range(3):
         G = mesh.F[label == k]
@@ -28,6 +29,6 @@ def test_a_checkerboard_band_gets_one_plain_border():
     mesh = disc(2400)
     x = mesh.V[mesh.F].mean(1)[:, 0]
     jagged = (x + 3 * (-1.0) ** np.arange(len(x)) > 0).astype(np.int64)
-    label = tidy(mesh.F, jagged, face_areas(*mesh))
+    label = clean_labels(Mesh(*mesh), jagged, face_areas(*mesh))
     assert is_disc(mesh.F[label == 0])
     assert is_disc(mesh.F[label == 1])

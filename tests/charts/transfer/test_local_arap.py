@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.flatten.flatten import flat_share
-from meshjig.charts.transfer.local_arap import settle
+from meshjig.charts.distortion import flat_share
+from meshjig.charts.transfer.local_arap import local_arap
 from meshjig.mesh.halfedges import border_halfedges
 from tests.charts.helpers import all_turn_left
 from tests.meshes import disc, half_sphere
@@ -20,7 +20,7 @@ def bumpy(height):
 @pytest.mark.parametrize("height", [3.0, 4.0])
 def test_bumps_get_the_room_that_they_need(height):
     V, F, uv = bumpy(height)
-    settled = settle(V, F, uv)
+    settled = local_arap(V, F, uv)
     assert 1 - flat_share(V, F, settled) < 0.6 * (1 - flat_share(V, F, uv))
     assert all_turn_left(settled, F)
     rim = F.ravel()[border_halfedges(F)]
@@ -30,7 +30,7 @@ def test_bumps_get_the_room_that_they_need(height):
 def test_a_map_without_stretch_stays_as_it_is():
     V, F = disc(3000)
     uv = np.ascontiguousarray(V[:, :2])
-    assert settle(V, F, uv) is uv
+    assert local_arap(V, F, uv) is uv
 
 
 def test_far_from_stretch_nothing_moves():
@@ -38,7 +38,7 @@ def test_far_from_stretch_nothing_moves():
     uv = V[:, :2].copy()
     V = V.copy()
     V[:, 2] = 6 * np.exp(-((V[:, 0] - 25) ** 2 + V[:, 1] ** 2) / 20)
-    settled = settle(V, F, uv)
+    settled = local_arap(V, F, uv)
     assert (settled != uv).any()
     assert (settled[V[:, 0] < 0] == uv[V[:, 0] < 0]).all()
 
@@ -47,4 +47,4 @@ def test_mirrored_faces_are_left_to_untangle():
     V, F = half_sphere(600)
     uv = V[:, :2].copy()
     uv[0] = [200.0, 0.0]
-    assert settle(V, F, uv) is uv
+    assert local_arap(V, F, uv) is uv

@@ -2,14 +2,15 @@ import igl
 import numpy as np
 import pytest
 
-from meshjig.charts.chart import Chart, plain
+from meshjig.charts.chart import Chart, uncut_chart
 from meshjig.charts.cuts import cut_open
-from meshjig.charts.transfer.transfer_chart import Carrier
-from meshjig.charts.transfer.transfer_charts import _carried
+from meshjig.charts.transfer.transfer_chart import ChartTransfer, without_outliers
+from meshjig.charts.transfer.transfer_charts import _transferred
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import compact, edges
+from meshjig.mesh.mesh import Mesh
 from tests.charts.helpers import all_turn_left
-from tests.meshes import cylinder, noisy
+from tests.meshes import cylinder, disc, half_sphere, noisy
 
 
 def quarters_of_a_tube(V, F):
@@ -45,10 +46,10 @@ def finer(V, F):
 @pytest.mark.parametrize("noise", [0.0, 0.15])
 def test_a_cut_inside_a_chart_stays_and_the_rest_is_whole(noise):
     W, G = cylinder(1000)
-    label, light = unrolled_tube(W, G)
+    label, given = unrolled_tube(W, G)
     V, F = finer(W, G)
     V, F = noisy(type(cylinder(8))(V, F), noise)
-    chart = Carrier(V, F, quarters_of_a_tube(V, F), W, G, label).carry(light)
+    chart = ChartTransfer(Mesh(V, F), quarters_of_a_tube(V, F), Mesh(W, G), label).apply(given)
     assert chart is not None
     assert is_disc(chart.corners)
     assert all_turn_left(chart.uv, chart.corners)
@@ -63,9 +64,9 @@ def test_a_cut_inside_a_chart_stays_and_the_rest_is_whole(noise):
 
 def test_on_the_proxy_itself_nothing_moves():
     W, G = cylinder(1000)
-    label, light = unrolled_tube(W, G)
-    chart = Carrier(W, G, label, W, G, label).carry(light)
-    place = chart.uv[chart.corners] - light.uv[light.corners]
+    label, given = unrolled_tube(W, G)
+    chart = ChartTransfer(Mesh(W, G), label, Mesh(W, G), label).apply(given)
+    place = chart.uv[chart.corners] - given.uv[given.corners]
     np.testing.assert_allclose(place - place[0, 0], 0, atol=0.2)
 
 
@@ -73,21 +74,21 @@ def test_a_region_that_is_no_disc_is_refused():
     W, G = cylinder(1000)
     label = quarters_of_a_tube(W, G)
     faces = np.flatnonzero(label == 0)
-    light = plain(G, faces, W[compact(G[faces])[1]][:, 1:])
+    given = uncut_chart(G, faces, W[compact(G[faces])[1]][:, 1:])
     scattered = np.where(np.arange(len(G)) % 7 == 0, 0, 1)
-    assert Carrier(W, G, scattered, W, G, np.minimum(label, 1)).carry(light) is None
+    assert ChartTransfer(Mesh(W, G), scattered, Mesh(W, G), np.minimum(label, 1)).apply(given) is None
 
 
 def test_a_chart_without_the_leaf_that_can_not_be_carried_is_carried_in_parts():
     V, F = cylinder(1000)
     label, tube = unrolled_tube(V, F)
 
-    class Refuses2(Carrier):
-        def carry(self, chart):
+    class Refuses2(ChartTransfer):
+        def apply(self, chart):
             return None if (label[chart.faces] == 2).any() else chart
 
-    carrier = Refuses2(V, F, label, V, F, label)
-    made, missing = _carried(carrier, tube, label)
+    transfer = Refuses2(Mesh(V, F), label, Mesh(V, F), label)
+    made, missing = _transferred(transfer, tube, label)
     assert [np.unique(label[part.faces]).tolist() for part in missing] == [[2]]
     # 2 and 3 lie opposite 0 and 1, which are cut apart; 0, without 2, hangs on nothing any more
     assert sorted(np.unique(label[chart.faces]).tolist() for chart in made) == [[0], [1, 3]]
@@ -97,11 +98,11 @@ def test_a_chart_whose_leaves_can_all_be_carried_but_not_together_falls_into_the
     V, F = cylinder(1000)
     label, tube = unrolled_tube(V, F)
 
-    class RefusesAll(Carrier):
-        def carry(self, chart):
+    class RefusesAll(ChartTransfer):
+        def apply(self, chart):
             return chart if len(np.unique(label[chart.faces])) == 1 else None
 
-    made, missing = _carried(RefusesAll(V, F, label, V, F, label), tube, label)
+    made, missing = _transferred(RefusesAll(Mesh(V, F), label, Mesh(V, F), label), tube, label)
     assert missing == []
     assert sorted(label[chart.faces[0]] for chart in made) == [0, 1, 2, 3]
 
@@ -110,5 +111,23 @@ def test_a_leaf_that_no_face_of_the_mesh_is_nearest_to_makes_no_chart():
     W, G = cylinder(1000)
     label = quarters_of_a_tube(W, G)
     faces = np.flatnonzero(label == 3)
-    light = plain(G, faces, W[compact(G[faces])[1]][:, 1:])
-    assert Carrier(W, G, np.minimum(label, 2), W, G, label).carry(light) is None
+    given = uncut_chart(G, faces, W[compact(G[faces])[1]][:, 1:])
+    assert ChartTransfer(Mesh(W, G), np.minimum(label, 2), Mesh(W, G), label).apply(given) is None
+
+
+@pytest.mark.parametrize("mesh", [disc(1500), half_sphere(1500), noisy(disc(1500), 0.3)])
+def test_strays_come_back_and_all_others_stay(mesh):
+    V, F = mesh
+    flat = V[:, :2].copy()
+    near = np.linalg.norm(V - V[200], axis=1) < 6
+    thrown = flat.copy()
+    thrown[near] += [60.0, 15.0]
+    back = without_outliers(V, F, thrown)
+    assert near.sum() >= 5
+    np.testing.assert_array_equal(back[~near], flat[~near])
+    assert np.linalg.norm(back[near] - flat[near], axis=1).max() < 6
+
+
+def test_nothing_astray_is_nothing_changed():
+    V, F = noisy(disc(1500), 0.3)
+    np.testing.assert_array_equal(without_outliers(V, F, V[:, :2]), V[:, :2])

@@ -3,20 +3,21 @@ import pytest
 
 from meshjig.charts.flatten.flatten import flatten
 from meshjig.charts.flatten.untangle import untangle
-from meshjig.charts.transfer.proxy import proxy
+from meshjig.charts.transfer.proxy import proxy_mesh
 from meshjig.charts.transfer.transfer_labels import transfer_labels, transfer_uv
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas, singular_values
+from meshjig.mesh.mesh import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.meshes import creased_box, disc, half_sphere, noisy, sphere
 
 
 def test_labels_follow_the_surface():
     V, F = sphere(20000)
-    W, G = proxy(V, F, 1000)
+    W, G = proxy_mesh(Mesh(V, F), 1000)
     octant = lambda P: (P > 0) @ np.array([1, 2, 4])  # noqa: E731
-    label = transfer_labels(V, F, W, G, octant(W[G].mean(1)))
+    label = transfer_labels(Mesh(V, F), Mesh(W, G), octant(W[G].mean(1)))
     clear = (np.abs(V[F].mean(1)) > 5).all(1)
     assert (label == octant(V[F].mean(1)))[clear].all()
     assert set(label) == set(range(8))
@@ -28,7 +29,7 @@ def test_the_two_sides_of_a_thin_sheet_are_told_apart():
     F = np.concatenate([top.F, top.F[:, ::-1] + len(top.V)])
     # On one half, the proxy's sheets have changed places by a hair, as decimation may do.
     swapped = np.where((V[:, :1] > 0) & [[False, False, True]], -V, V)
-    label = transfer_labels(V, F[: len(top.F)], swapped, F, np.repeat([0, 1], len(top.F)))
+    label = transfer_labels(Mesh(V, F[: len(top.F)]), Mesh(swapped, F), np.repeat([0, 1], len(top.F)))
     assert (label == 0).all()
 
 
@@ -46,7 +47,7 @@ def spread_of_stretch(V, F, uv):
 @pytest.mark.parametrize("amount", [0.0, 0.2])
 def test_a_map_carried_from_the_proxy_is_as_flat_as_the_proxy_and_nowhere_mirrored(amount):
     V, F = noisy(half_sphere(20000), amount)
-    W, G = proxy(V, F, 1000)
+    W, G = proxy_mesh(Mesh(V, F), 1000)
     light = flatten(W, G)
     uv = untangle(V, F, transfer_uv(V, W, G, light))
     assert all_turn_left(uv, F)
@@ -70,7 +71,7 @@ def test_untangle_moves_only_what_is_mirrored():
 def test_borders_are_straight_across_the_faces_of_the_proxy():
     V, F = disc(20000)
     W, G = disc(600)
-    label = transfer_labels(V, F, W, G, (W[G].mean(1)[:, 0] > 3.3).astype(np.int64))
+    label = transfer_labels(Mesh(V, F), Mesh(W, G), (W[G].mean(1)[:, 0] > 3.3).astype(np.int64))
     e = edges(F)
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     rim = h[label[h // 3] != label[e.twin[h] // 3]]
@@ -84,15 +85,15 @@ def test_a_strip_one_face_wide_comes_through():
     V, F = disc(20000)
     W, G = disc(600)
     label = np.digitize(W[G].mean(1)[:, 0], [-4, 4])
-    carried = transfer_labels(V, F, W, G, label)
-    before, after = (face_areas(*m)[k == 1].sum() for m, k in (((W, G), label), ((V, F), carried)))
+    transferred = transfer_labels(Mesh(V, F), Mesh(W, G), label)
+    before, after = (face_areas(*m)[k == 1].sum() for m, k in (((W, G), label), ((V, F), transferred)))
     assert after == pytest.approx(before, rel=0.15)
-    assert components(F[carried == 1])[0] == 1
+    assert components(F[transferred == 1])[0] == 1
 
 
 def test_a_fold_holds_a_border():
     V, F = creased_box(12000)
     W, G = creased_box(700)
     top = (W[G].mean(1)[:, 2] > 49.9).astype(np.int64)
-    wrong = transfer_labels(V, F, W, G, top) != (V[F].mean(1)[:, 2] > 49.9)
+    wrong = transfer_labels(Mesh(V, F), Mesh(W, G), top) != (V[F].mean(1)[:, 2] > 49.9)
     assert (np.abs(V[F[wrong]].mean(1)) > 48).all()  # at the four corners, faces would stick out like teeth

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.tubes.cut_annulus import meets_itself, ring_net, unroll
-from meshjig.charts.tubes.periodic import periodic, suits
+from meshjig.charts.tubes.cut_annulus import annulus_of, cut_annulus, meets_itself
+from meshjig.charts.tubes.periodic import is_tubular, periodic
 from meshjig.errors import ChartError
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, singular_values
+from meshjig.mesh.mesh import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.charts.revolved import annulus, bent, cone, holed, limb, pole, vase
 from tests.meshes import genus2, half_sphere, noisy, open_cup, saddle, sphere
@@ -42,7 +43,7 @@ TUBES = {
 @pytest.fixture(scope="module", params=TUBES)
 def charted(request):
     V, F = TUBES[request.param]
-    return request.param, V, F, periodic(V, F)
+    return request.param, V, F, periodic(Mesh(V, F))
 
 
 def test_charts_cover_every_face_once_and_mirror_none(charted):
@@ -76,8 +77,10 @@ def test_rings_do_not_meet_their_copies(charted):
     for chart in charts:
         if chart.period:
             G, kept = compact(F[chart.faces])
-            net = ring_net(G)
-            assert not meets_itself(net, unroll(net, chart.uv[: len(kept)], chart.period), chart.period)
+            annulus = annulus_of(G)
+            assert not meets_itself(
+                annulus, cut_annulus(annulus, chart.uv[: len(kept)], chart.period), chart.period
+            )
 
 
 def test_the_stretch_is_within_limits_and_1_on_average(charted):
@@ -106,19 +109,19 @@ def test_the_stretch_is_within_limits_and_1_on_average(charted):
     ],
 )
 def test_charts_are_as_few_as_the_girths_allow(name, rings, caps):
-    charts = periodic(*TUBES[name])
+    charts = periodic(Mesh(*TUBES[name]))
     assert [sum(bool(c.period) for c in charts), sum(not c.period for c in charts)] == [rings, caps]
 
 
 def test_the_period_of_a_pole_is_its_girth():
-    (chart,) = periodic(*pole())
+    (chart,) = periodic(Mesh(*pole()))
     assert chart.period == pytest.approx(60 * 2 * 15 * np.sin(np.pi / 60), rel=2e-3)
     assert np.ptp(chart.uv[:, 1]) == pytest.approx(90, rel=2e-3)
 
 
 def test_the_same_tube_gives_the_same_charts():
     V, F = TUBES["fine limb"]
-    for one, other in zip(periodic(V, F), periodic(V, F), strict=True):
+    for one, other in zip(periodic(Mesh(V, F)), periodic(Mesh(V, F)), strict=True):
         np.testing.assert_array_equal(one.faces, other.faces)
         np.testing.assert_array_equal(one.uv, other.uv)
 
@@ -135,14 +138,14 @@ def test_the_same_tube_gives_the_same_charts():
 )
 def test_what_is_no_tube_is_refused_in_a_sentence(mesh, words):
     with pytest.raises(ChartError, match=words):
-        periodic(*mesh)
+        periodic(Mesh(*mesh))
 
 
 def test_vases_and_limbs_suit():
     for name in ("pole", "vase", "limb", "fine vase", "elbow"):
-        assert suits(*TUBES[name]), name
+        assert is_tubular(Mesh(*TUBES[name])), name
 
 
 @pytest.mark.parametrize("mesh", [sphere(2000), genus2(2000), half_sphere(1500), open_cup(1500), annulus()])
 def test_other_shapes_do_not(mesh):
-    assert not suits(*mesh)
+    assert not is_tubular(Mesh(*mesh))

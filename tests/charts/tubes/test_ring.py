@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.tubes.ends import two_ends
+from meshjig.charts.tubes.harmonic_function import two_ends
 from meshjig.charts.tubes.ring import corner_uv, flatten_ring
 from meshjig.charts.tubes.separating_loops import across
 from meshjig.mesh.measure import face_areas, singular_values
+from meshjig.mesh.mesh import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.charts.revolved import bent, holed, pole, trumpet
 
@@ -14,7 +15,7 @@ GIRTH = 60 * 2 * 15 * np.sin(np.pi / 60)  # of the pole's polygon
 
 
 def mapped(V, F):
-    left = across(V, F, two_ends(V, F))
+    left = across(V, F, two_ends(Mesh(V, F)))
     ring = flatten_ring(V, F, left)
     return ring, *corner_uv(F, ring.uv, left, ring.period)
 
@@ -35,7 +36,7 @@ def test_v_grows_along_the_tube_and_no_face_is_mirrored(mesh):
     ring, uv, corners = mapped(*mesh)
     assert ring.period > 0
     assert all_turn_left(uv, corners)
-    first, last = two_ends(*mesh)
+    first, last = two_ends(Mesh(*mesh))
     assert ring.uv[first, 1].max() < ring.uv[last, 1].min()
 
 

@@ -1,22 +1,22 @@
 import numpy as np
 import pytest
 
-from meshjig.charts.arrange import lie_along
-from meshjig.charts.chart import plain
-from meshjig.charts.flatten.flatten import border_is_simple, flat_share, flatten
-from meshjig.charts.segment.dual_graph import dual
-from meshjig.charts.segment.patches import patches
+from meshjig.charts.chart import lie_along, uncut_chart
+from meshjig.charts.distortion import border_is_simple, flat_share
+from meshjig.charts.flatten.flatten import flatten
+from meshjig.charts.segment.dual_graph import dual_graph, patches
 from meshjig.charts.segment.split import split
 from meshjig.charts.zip.zip import zip_charts
 from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import compact, edges
 from meshjig.mesh.measure import face_areas
+from meshjig.mesh.mesh import Mesh
 from tests.charts.helpers import all_turn_left
 from tests.meshes import closed_cylinder, cylinder, genus2, sphere, torus
 
 
 def patchwork(V, F):
-    return split(V, F, patches(dual(V, F), 16), lambda faces: is_disc(F[faces]), 0)
+    return split(Mesh(V, F), patches(dual_graph(V, F), 16), lambda faces: is_disc(F[faces]), 0)
 
 
 def charts_of(V, F, label):
@@ -24,7 +24,7 @@ def charts_of(V, F, label):
     for k in range(label.max() + 1):
         faces = np.flatnonzero(label == k)
         G, kept = compact(F[faces])
-        found.append(plain(F, faces, flatten(V[kept], G)))
+        found.append(uncut_chart(F, faces, flatten(V[kept], G)))
     return found
 
 

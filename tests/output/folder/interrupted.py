@@ -11,7 +11,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from meshjig.output.folder import claim, exchange, replace_folder
+from meshjig.output.folder import claim, replace_folder, system
 
 CALLS = ("open", "write", "mkdir", "rename", "chmod", "ftruncate", "unlink", "rmdir")
 
@@ -81,7 +81,7 @@ def case(folder, number, nth, after):
 
 def main(folder, without_exchange):
     if without_exchange:
-        claim.exchange = exchange.exchange = lambda *_: False
+        claim.exchange = system.exchange = lambda *_: False
     replace(folder / "out", "old")
     calls, _ = case(folder, 0, 0, False)
     for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):

@@ -8,20 +8,18 @@ from PIL import Image
 
 from meshjig.errors import OutputError
 from meshjig.mesh.measure import unit
-from meshjig.output.concatenate import together
 from meshjig.output.guide.cameras import cameras, choose_cameras
 from meshjig.output.guide.guide import write_guide
-from meshjig.output.guide.light_model import Stage, joint_of, light_model
 from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, text_width, wrapped
-from meshjig.output.guide.parts_pages import parts_pages
-from meshjig.output.guide.piece_outlines import outlines
+from meshjig.output.guide.parts_pages import outlines, parts_pages
 from meshjig.output.guide.place_labels import place_labels
+from meshjig.output.guide.proxy import PlacedFaces, join_pieces, proxy_model
 from meshjig.output.guide.step_picture import Frame, draw_step, silhouette
 from meshjig.output.guide.table_pages import table_pages
 from meshjig.output.order import assembly_order
 from meshjig.output.pictures.scene import cast, scene_of
 from meshjig.output.pictures.view import View
-from meshjig.output.piece import Piece
+from meshjig.output.piece import Piece, concatenate
 from tests.meshes import moved, sphere
 
 RED = (0.9, 0.1, 0.1)
@@ -200,7 +198,7 @@ def test_each_new_piece_is_seen_from_where_it_is_shown(seed):
     away = np.random.default_rng(seed).permutation(on_a_globe(24, 40.0))
     pieces = balls([[0, 0, 0]], 30.0) + balls(away, 6.0)
     steps = [[1], *([k + 2, k + 3, k + 4] for k in range(0, 24, 3))]
-    model = light_model(joint_of(pieces), steps)
+    model = proxy_model(join_pieces(pieces), steps)
     places = cameras(model)
     for number, step in enumerate(steps[1:], 1):
         chosen = choose_cameras(model, model.until(number), [k - 1 for k in step], places, 0)
@@ -222,7 +220,7 @@ def test_pieces_on_opposite_sides_of_something_large_have_a_picture_each():
     plates = [
         Piece(f"p{z}", W, F, RED, outer_normal=np.array([0, 0, z])) for W, z in ((front, 1), (back, -1))
     ]
-    model = light_model(joint_of([*balls([[0, 0, 0]], 30.0), *plates]), [[1], [2, 3]])
+    model = proxy_model(join_pieces([*balls([[0, 0, 0]], 30.0), *plates]), [[1], [2, 3]])
     chosen = choose_cameras(model, model.until(1), [1, 2], cameras(model), 0)
     assert sorted(mine for _, mine in chosen) == [[1], [2]]
 
@@ -230,13 +228,13 @@ def test_pieces_on_opposite_sides_of_something_large_have_a_picture_each():
 def test_a_picture_is_that_of_the_placed_pieces_alone(globe):
     pieces, near = globe
     steps = assembly_order(pieces, near)
-    model = light_model(joint_of(pieces), steps)
+    model = proxy_model(join_pieces(pieces), steps)
     view = cameras(model)[2].view
     frame = Frame(240, 160, 160 / (2.2 * view.half), (float(view.centre[0]), float(view.centre[1])))
     for number in (0, 3, 7, len(steps) - 1):
         placed = [piece - 1 for step in steps[: number + 1] for piece in step]
         picture = draw_step(model.until(number), view, frame, placed[-2:], np.zeros((160, 240), bool))
-        V, F, _, owner = together([pieces[k] for k in placed])
+        V, F, _, owner = concatenate([pieces[k] for k in placed])
         square = View(view.eye, view.axes, view.centre, 120 / frame.scale)
         row, column = (x.ravel() for x in np.mgrid[:160, :240])
         truth = cast(scene_of(V, F, np.ones((len(F), 3)), owner), square, 240, column + 0.5, row + 40.5).id
@@ -248,7 +246,7 @@ def test_a_picture_is_that_of_the_placed_pieces_alone(globe):
 
 def test_new_pieces_stand_out_in_black_and_white():
     pieces = balls([[-14, 0, 0], [14, 0, 0]], 12.0)
-    model = light_model(joint_of(pieces), [[1], [2]])
+    model = proxy_model(join_pieces(pieces), [[1], [2]])
     view = cameras(model)[0].view
     frame = Frame(300, 200, 280 / (2.2 * view.half), (float(view.centre[0]), float(view.centre[1])))
     picture = draw_step(model.until(1), view, frame, [1], np.zeros((200, 300), bool))
@@ -266,18 +264,18 @@ def test_new_pieces_stand_out_in_black_and_white():
 
 def test_the_silhouette_is_the_shadow_of_all(globe):
     pieces, _ = globe
-    model = light_model(joint_of(pieces), [[k + 1 for k in range(40)]])
+    model = proxy_model(join_pieces(pieces), [[k + 1 for k in range(40)]])
     view = cameras(model)[0].view
     frame = Frame(200, 200, 200 / (2.2 * view.half), (float(view.centre[0]), float(view.centre[1])))
-    shadow = silhouette(Stage(model.scene, len(model.scene.F)), view, frame)
+    shadow = silhouette(PlacedFaces(model.scene, len(model.scene.F)), view, frame)
     picture = draw_step(model.until(0), view, frame, [], shadow)
     assert (shadow[picture.piece >= 0]).mean() > 0.97
     assert 0.3 < shadow.mean() < 0.9
 
 
-def test_the_light_model_is_lighter_but_of_the_same_shape():
+def test_the_proxy_is_lighter_but_of_the_same_shape():
     pieces = balls([[0, 0, 0], [60, 0, 0], [0, 60, 0]], 25.0, n=60_000)
-    model = light_model(joint_of(pieces), [[3], [1, 2]])
+    model = proxy_model(join_pieces(pieces), [[3], [1, 2]])
     assert len(model.scene.F) < 0.5 * sum(len(piece.F) for piece in pieces)
     assert model.scene.id[0] == 2
     assert set(model.scene.id[: model.first_face[1]]) == {2}
@@ -332,7 +330,7 @@ def test_outlines_are_true_in_size_and_not_mirrored(seed):
     V, F = prism(corners)
     R = rotation(seed)
     piece = Piece("p", V @ R.T + [3.0, -8.0, 1.0], F, RED, outer_normal=R[:, 2] * 180)
-    (outline,) = outlines(joint_of([piece]))
+    (outline,) = outlines(join_pieces([piece]))
     assert outline.size == pytest.approx([30, 12], abs=0.3)
     ring = shapely.Polygon(outline.ring)
     assert ring.area == pytest.approx(180, abs=1.0)
@@ -347,7 +345,7 @@ def test_outlines_are_true_in_size_and_not_mirrored(seed):
 
 def test_every_piece_has_its_own_outline(globe):
     pieces = balls(on_a_globe(6, 60.0), 5.0) + balls([[0, 0, 0]], 11.0)
-    for piece, outline in zip(pieces, outlines(joint_of(pieces)), strict=True):
+    for piece, outline in zip(pieces, outlines(join_pieces(pieces)), strict=True):
         diameter = float(np.ptp(piece.V, axis=0).max())
         assert outline.size == pytest.approx([diameter] * 2, rel=0.06)
 
@@ -357,7 +355,7 @@ def test_outlines_lie_apart_within_the_page_under_their_plate(n, n_plates, pages
     rng = np.random.default_rng(n)
     V, F = prism(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), 0.02)
     pieces = [Piece("p", V * [*rng.uniform(15, 40, 2), 1], F, RED, outer_normal=V[3]) for _ in range(n)]
-    shapes = outlines(joint_of(pieces))
+    shapes = outlines(join_pieces(pieces))
     plates = [None] * n if n_plates == 0 else (1 + rng.permutation(n) % n_plates).tolist()
     made = [drawn(page) for page in parts_pages(shapes, plates)]
     assert len(made) <= pages

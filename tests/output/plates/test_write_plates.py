@@ -5,14 +5,13 @@ import pytest
 import shapely
 
 from meshjig.check import is_closed_as_stl
-from meshjig.errors import OutputError
 from meshjig.mesh.measure import mesh_volume
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.piece import Piece
-from meshjig.output.plates.plate_sheet import number_of
+from meshjig.output.plates.lay_out import lay_out
 from meshjig.output.plates.printers import Plate
-from meshjig.output.plates.write_plates import lay_out, write_plates
-from meshjig.output.texture import Coat
+from meshjig.output.plates.write_plates import number_of, write_plates
+from meshjig.output.texture import Texture
 from tests.output.plates.tiles import bent, turned
 
 PLATE, GAP = Plate(90, 80, 50), 4.0
@@ -21,22 +20,21 @@ UP = np.array([0.0, 0.0, 1.0])
 
 def puzzle(n=14):
     rng = np.random.default_rng(1)
-    pieces, normals = [], []
+    pieces = []
     for i in range(n):
         side = rng.uniform(12, 34, 2)
         (V, F), R = turned(bent(*side, *rng.uniform(-0.03, 0.03, 2), n=9), i)
-        pieces.append(Piece(f"piece_{i + 1:03d}", V, F, (0.5, 0.6, i / n)))
-        normals.append(R @ UP)
-    return pieces, np.array(normals)
+        pieces.append(Piece(f"piece_{i + 1:03d}", V, F, (0.5, 0.6, i / n), outer_normal=R @ UP))
+    return pieces
 
 
-PIECES, NORMALS = puzzle()
+PIECES = puzzle()
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("puzzle")
-    facts = write_plates(folder, PIECES, PLATE, gap=GAP, outer_normals=NORMALS)
+    facts = write_plates(folder, PIECES, PLATE, gap=GAP)
     return folder, facts
 
 
@@ -47,9 +45,9 @@ def plates(folder):
 def test_every_piece_is_on_the_plate_that_the_facts_name(folder):
     folder, facts = folder
     names = [[name for name, _, _ in plate] for plate in plates(folder)]
-    assert [fact["name"] for fact in facts] == [piece.name for piece in PIECES]
+    assert [fact.name for fact in facts] == [piece.name for piece in PIECES]
     for fact in facts:
-        assert fact["name"] in names[fact["plate"] - 1]
+        assert fact.name in names[fact.plate - 1]
     assert sum(len(plate) for plate in names) == len(PIECES)
 
 
@@ -86,17 +84,17 @@ def test_pieces_rest_on_the_plate_within_it_and_apart(folder):
 
 def test_no_piece_stands_on_an_edge_and_outer_sides_are_up(folder):
     for fact in folder[1]:
-        assert fact["height_mm"] < 17
-        assert fact["outer_up"]
-        assert 0 <= fact["overhang_share"] < 0.5
+        assert fact.height_mm < 17
+        assert fact.outer_up
+        assert 0 <= fact.overhang_share < 0.5
 
 
 def test_the_sheet_shows_every_number_once_within_its_outline(folder):
     folder, facts = folder
     text = (folder / "plates.svg").read_text()
     numbers = re.findall(r'text-anchor="middle">(\w+)</text>', text)
-    assert sorted(map(int, numbers)) == [int(fact["name"][-3:]) for fact in facts]
-    assert text.count("<rect") == max(fact["plate"] for fact in facts)
+    assert sorted(map(int, numbers)) == [int(fact.name[-3:]) for fact in facts]
+    assert text.count("<rect") == max(fact.plate for fact in facts)
     pattern = r'<path d="([^"]+)".*?/><text x="([\d.]+)" y="([\d.]+)" font-size="([\d.]+)"'
     for data, x, y, size in re.findall(pattern, text):
         outline = shapely.Polygon([tuple(map(float, p.split())) for p in data.split("Z")[0][1:].split("L")])
@@ -111,7 +109,7 @@ def test_the_picture_is_grey_white_and_black_only(folder):
     for tone in (0, 220, 255):
         assert (picture == tone).mean() > 0.001
     grey = (picture == 220).sum() / (4.0 * 4.0)  # mm2
-    shadows = sum(item.outline.area for item in lay_out(PIECES, PLATE, gap=GAP, outer_normals=NORMALS))
+    shadows = sum(item.outline.area for item in lay_out(PIECES, PLATE, gap=GAP)[0])
     assert grey == pytest.approx(shadows, rel=0.15)
 
 
@@ -119,30 +117,29 @@ def test_a_piece_too_large_for_the_plate_is_named_with_its_size(tmp_path):
     large = Piece("piece_099", *bent(120, 60), (0, 0, 0))
     sentence = r"piece_099 \(120 x 60 x 2 mm\).*90 x 80 x 50 mm.*--plate"
     *others, left_out = write_plates(tmp_path, [*PIECES, large], PLATE)
-    assert left_out["name"] == "piece_099"
-    assert left_out["plate"] is None
-    assert re.search(sentence, left_out["why"])
-    assert [fact["name"] for fact in others] == [piece.name for piece in PIECES]
-    with pytest.raises(OutputError, match=sentence):
-        lay_out([*PIECES, large], PLATE)
+    assert left_out.name == "piece_099"
+    assert left_out.plate is None
+    assert re.search(sentence, left_out.why)
+    assert [fact.name for fact in others] == [piece.name for piece in PIECES]
 
 
 def test_a_piece_too_high_for_the_printer_is_named():
     high = Piece("piece_007", *bent(30, 30, 0.05, 0.05), (0, 0, 0))
-    with pytest.raises(OutputError, match="piece_007"):
-        lay_out([high], Plate(200, 200, 5))
+    placed, left_out = lay_out([high], Plate(200, 200, 5))
+    assert placed == []
+    assert [one.name for one in left_out] == ["piece_007"]
 
 
 def test_the_colours_of_a_scan_come_along():
     V, F = bent(20, 20, n=9)
-    coat = Coat(np.ones(len(F), bool), np.random.default_rng(0).uniform(size=(len(F), 3, 3)))
-    laid = lay_out([Piece("piece_001", V, F, (0, 0, 0), coat=coat)], PLATE)
-    np.testing.assert_array_equal(laid[0].piece.coat.rgb, coat.rgb)
-    np.testing.assert_array_equal(laid[0].piece.F, F)
+    texture = Texture(np.ones(len(F), bool), np.random.default_rng(0).uniform(size=(len(F), 3, 3)))
+    placed, _ = lay_out([Piece("piece_001", V, F, (0, 0, 0), texture=texture)], PLATE)
+    np.testing.assert_array_equal(placed[0].piece.texture.rgb, texture.rgb)
+    np.testing.assert_array_equal(placed[0].piece.F, F)
 
 
 def test_no_pieces_need_no_plates():
-    assert lay_out([], PLATE) == []
+    assert lay_out([], PLATE) == ([], [])
 
 
 @pytest.mark.parametrize(

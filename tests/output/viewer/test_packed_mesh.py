@@ -6,7 +6,7 @@ from PIL import Image
 
 from meshjig.mesh.measure import unit
 from meshjig.output.piece import Piece
-from meshjig.output.texture import Coat
+from meshjig.output.texture import Texture
 from meshjig.output.viewer.packed_mesh import pack
 from meshjig.output.viewer.page import write_viewer
 from tests.meshes import creased_box, moved, sphere, torus
@@ -23,9 +23,9 @@ def dressed(textured):
     above = (height > 0.5)[..., None]
     rgb = np.where(above, [0.9, 0.12, 0.08], [0.08, 0.12, 0.9])
     uv = np.stack([np.full(height.shape, 0.3), height], 2)
-    coat = Coat(outer, rgb, uv, image) if textured else Coat(outer, rgb)
+    texture = Texture(outer, rgb, uv, image) if textured else Texture(outer, rgb)
     return [
-        Piece("piece_001", V, F, (0.1, 0.8, 0.1), coat=coat),
+        Piece("piece_001", V, F, (0.1, 0.8, 0.1), texture=texture),
         Piece("piece_002", *moved(sphere(500, 20.0), [60, 0, -60]), (0.1, 0.8, 0.1)),
     ]
 

@@ -95,7 +95,7 @@ def test_wedges_are_the_rings_tiles_run_on_to_the_pole(atlas, name, random):
         atlas, MIDDLE, pole="wedge", unit=UNITS[name], style=TileStyle(min_neck=NECK, random=random)
     )
     cut = overlay(atlas, tiling.outlines)
-    assert cut.facts["label_conflicts"] == 0
+    assert cut.facts.label_conflicts == 0
     (fact,) = tiling.poles
     assert fact.closed_by == "wedge"
     assert fact.why == ""
@@ -112,7 +112,7 @@ def test_cuts_go_on_over_the_border_of_the_cap(atlas):
     tiling = tile_surface(atlas, MIDDLE, pole="wedge", style=TileStyle(min_neck=NECK))
     wedges = overlay(atlas, tiling.outlines)
     plain = overlay(atlas, tile_charts(atlas, MIDDLE, min_neck=NECK)[0])
-    assert wedges.facts["seam_merged"] == plain.facts["seam_merged"] + 6
+    assert wedges.facts.seam_merged == plain.facts.seam_merged + 6
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,7 @@ def test_where_too_many_would_meet_a_few_do_and_the_reason_is_given(atlas):
     assert 4 <= fact.meeting <= 8
     cut = overlay(atlas, tiling.outlines)
     assert len(at_pole(cut)) == fact.meeting
-    assert cut.facts["label_conflicts"] == 0
+    assert cut.facts.label_conflicts == 0
 
 
 def test_rows_around_a_pole_hold_tiles_of_one_size(atlas):

@@ -1,1 +1,0 @@
-"""Charts from the UVs that came with the file."""

@@ -1,0 +1,190 @@
+"""The report: what was made, what was measured, as JSON."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+import stat
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from meshjig.errors import InputError
+
+__all__ = [
+    "Expectations",
+    "Report",
+    "read_expectations",
+    "read_missing",
+    "read_report",
+    "report_file",
+    "report_text",
+    "title_of",
+    "write_report",
+]
+
+
+Report = dict[str, Any]  # what report.json holds
+_DIGITS = 7
+_LARGEST = 16_000_000  # bytes; reports of 10,000 pieces have a third of it
+
+
+def report_file(path: Path) -> str:
+    """Give the text of a report.
+
+    Raises
+    ------
+    OSError
+        It can't be read, or is no regular file.
+    ValueError
+        It is larger than any report, or no text.
+    """
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(errno.EINVAL, "no regular file", str(path))
+    if found.st_size > _LARGEST:
+        raise ValueError("larger than any report")
+    return path.read_text(encoding="utf-8")
+
+
+def read_report(path: Path) -> Report:
+    """Read the report of a folder that meshjig made.
+
+    Raises
+    ------
+    InputError
+        There is none, or it is damaged.
+    """
+    try:
+        report = json.loads(report_file(path))
+    except OSError as error:
+        raise InputError(f"{path} can't be read ({(error.strerror or str(error)).lower()})") from None
+    except (ValueError, RecursionError):
+        raise InputError(f"{path} is no valid JSON, or damaged", hint=_HINT) from None
+    if not isinstance(report, dict):
+        raise InputError(f"{path} is no report of meshjig", hint=_HINT)
+    return report
+
+
+_HINT = "make the puzzle again, or remove it to judge the pieces by themselves"
+
+
+def write_report(path: Path, report: Mapping[str, Any]) -> None:
+    """Write a report as JSON, its keys in the order given; see ``report_text``."""
+    path.write_text(report_text(report), encoding="utf-8")
+
+
+def title_of(report: Mapping[str, Any]) -> str:
+    """Give the name of the model's file, or Puzzle."""
+    name = report.get("input", {}).get("file")
+    return Path(str(name)).stem if name else "Puzzle"
+
+
+def report_text(report: Mapping[str, Any]) -> str:
+    """Give a report as JSON text.
+
+    Parameters
+    ----------
+    report : mapping
+        Numpy numbers and arrays, paths, tuples and sets are welcome.
+
+    Returns
+    -------
+    str
+        Keys in the order given; floats with seven significant digits; what is not finite is null, since
+        it was not measured.
+    """
+    return json.dumps(_plain(report), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, set | frozenset):
+        return [_plain(item) for item in sorted(value)]
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
+    if value is None or isinstance(value, bool | int | str):
+        return value
+    return str(value)
+
+
+class Expectations(NamedTuple):
+    """What the judgement of finished pieces may know beforehand; None for what is not known."""
+
+    neighbours: list[tuple[int, int]] | None = None  # indices of pieces that share a border
+    thickness: float | None = None  # mm
+    clearance: float | None = None  # mm
+    min_wall: float | None = None  # mm
+    exempt_pieces: tuple[str, ...] = ()  # names of pieces affected by crossings of the model itself
+
+
+def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) -> Expectations:
+    """Read what the report in a folder of pieces says was asked for.
+
+    Nothing that was measured is taken from it.
+
+    Parameters
+    ----------
+    report : mapping, or None where there is none
+    names : names of the pieces that were read
+
+    Returns
+    -------
+    Expectations
+
+    Raises
+    ------
+    InputError
+        The report is damaged.
+    """
+    if report is None:
+        return Expectations()
+    try:
+        options = report["options"]
+        return Expectations(
+            _neighbours(report["pieces"], names),
+            thickness=options.get("thickness"),
+            clearance=options.get("clearance"),
+            min_wall=options.get("min_wall"),
+            exempt_pieces=tuple(report.get("exempt_pieces", ())),
+        )
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise InputError(
+            "report.json is no report of meshjig, or damaged",
+            hint="remove it to judge the pieces by themselves",
+        ) from None
+
+
+def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list[str]:
+    """List what the report in a folder of pieces tells of, and no file holds.
+
+    Parameters
+    ----------
+    report : mapping, or None where there is none
+    names : names of the pieces, and parts of the core, that were read
+    """
+    if report is None:
+        return []
+    listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
+    if not set(listed) & set(names):
+        return []  # the pieces go by other names
+    listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
+    return sorted(set(listed) - set(names))
+
+
+def _neighbours(pieces: list[Report], names: Sequence[str]) -> list[tuple[int, int]] | None:
+    """The pairs of pieces that are both there, or None where no piece goes by its number."""
+    place = {name: i for i, name in enumerate(names)}
+    at = {piece["id"]: place.get(f"piece_{piece['id']:03d}") for piece in pieces}
+    if all(i is None for i in at.values()):
+        return None
+    pairs = ((at[piece["id"]], at.get(other)) for piece in pieces for other in piece["neighbours"])
+    return sorted({(i, j) for i, j in pairs if i is not None and j is not None and i < j})
