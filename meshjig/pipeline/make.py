@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh
-from meshjig.options import Options
+from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.printers import estimate
 from meshjig.output.texture import textures
@@ -43,7 +43,11 @@ WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start th
 
 
 def make_puzzle(
-    mesh: Any, *, progress: Progress | None = None, options: Options | None = None, **keywords: Any
+    mesh: Any,
+    *,
+    progress: Progress | None = None,
+    options: Options | None = None,
+    **keywords: Unpack[OptionKeywords],
 ) -> Puzzle:
     """Turn a triangle mesh into a jigsaw puzzle of its surface.
 
