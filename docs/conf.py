@@ -1,0 +1,57 @@
+"""How Sphinx builds the documentation: scripts/docs."""
+
+import typing
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.util.docutils import SphinxDirective
+
+import meshjig
+from meshjig.options import PROCESSES, Options
+
+project = "meshjig"
+author = "The meshjig developers"
+copyright = "The meshjig developers, GPL-3.0-or-later"
+version = release = meshjig.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+exclude_patterns = ["build"]
+myst_enable_extensions = ["deflist"]
+myst_heading_anchors = 3
+suppress_warnings = ["misc.highlighting_failure"]
+html_theme = "furo"
+html_title = f"meshjig {version}"
+html_static_path = []
+autodoc_typehints = "none"  # the docstrings give shapes, dtypes and units, which say more
+autodoc_member_order = "bysource"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+
+class OptionsTable(SphinxDirective):
+    """A row for each field of Options, as the code has it."""
+
+    def run(self) -> list[nodes.Node]:
+        """Make the table."""
+        rows = [".. list-table::", "   :header-rows: 1", "   :widths: 24 16 60", ""]
+        rows += ["   * - keyword", "     - default", "     - meaning"]
+        for name, field in Options.model_fields.items():
+            default = field.default
+            if name in PROCESSES["fdm"]:
+                default = "the process's"
+            elif default is None:
+                default = "\\-"
+            elif isinstance(default, tuple):
+                default = ",".join(default)
+            values = typing.get_args(field.annotation)
+            choices = [v for v in values if isinstance(v, str)]
+            meaning = field.description + (f": {', '.join(choices)}" if len(choices) > 3 else "")
+            rows += [f"   * - ``{name}``", f"     - {default}", f"     - {meaning}"]
+        box = nodes.Element()
+        self.state.nested_parse(StringList(rows, "options.py"), 0, box)
+        return box.children
+
+
+def setup(app: typing.Any) -> None:
+    """Tell Sphinx of the directive."""
+    app.add_directive("options-table", OptionsTable)
