@@ -33,20 +33,17 @@ class OptionsTable(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Make the table."""
-        rows = [".. list-table::", "   :header-rows: 1", "   :widths: 24 16 60", ""]
-        rows += ["   * - keyword", "     - default", "     - meaning"]
+        rows = ["| keyword | default | meaning |", "|---|---|---|"]
         for name, field in Options.model_fields.items():
             default = field.default
             if name in PROCESSES["fdm"]:
                 default = "the process's"
-            elif default is None:
-                default = "\\-"
             elif isinstance(default, tuple):
                 default = ",".join(default)
-            values = typing.get_args(field.annotation)
-            choices = [v for v in values if isinstance(v, str)]
-            meaning = field.description + (f": {', '.join(choices)}" if len(choices) > 3 else "")
-            rows += [f"   * - ``{name}``", f"     - {default}", f"     - {meaning}"]
+            choices = [value for value in typing.get_args(field.annotation) if isinstance(value, str)]
+            listed = len(choices) > 1 and not any(choice in field.description for choice in choices[1:])
+            meaning = field.description + (f": {', '.join(choices)}" if listed else "")
+            rows.append(f"| `{name}` | {'' if default is None else default} | {meaning} |")
         box = nodes.Element()
         self.state.nested_parse(StringList(rows, "options.py"), 0, box)
         return box.children

@@ -35,7 +35,9 @@ def main() -> int:
     for layout, pictures in WANTED.items():
         with tempfile.TemporaryDirectory() as folder:
             stages = Path(folder) / "stages"
-            puzzle = meshjig.make_puzzle(scan, size=150, pieces=80, layout=layout, debug_dir=stages)
+            puzzle = meshjig.make_puzzle(
+                scan, size=150, pieces=80, faces=30_000, layout=layout, debug_dir=stages
+            )
             print(puzzle)
             for name, stage in pictures.items():
                 image = (
