@@ -19,6 +19,7 @@ exclude_patterns = ["build"]
 myst_enable_extensions = ["deflist"]
 myst_heading_anchors = 3
 suppress_warnings = ["misc.highlighting_failure"]
+smartquotes = False
 html_theme = "furo"
 html_title = f"meshjig {version}"
 html_static_path = []
