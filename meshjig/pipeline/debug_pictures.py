@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,6 @@ from meshjig.solid import Shell
 __all__ = ["STAGES", "StagePictures"]
 
 STAGES = ("1_layout.png", "2_outlines.png", "3_cut.png", "4_shell.png", "5_solids.png")
-
 _SIDES = ((30.0, 18.0), (210.0, 18.0))  # azimuth and elevation, degrees
 _SIZE = 700  # pixels, height of a picture; it is twice as wide
 _FRAME = 1.05
@@ -39,13 +39,7 @@ Look = tuple[Floats, Ints, Floats, Ints]  # V, F, and for faces colours and numb
 
 
 class StagePictures:
-    """Draws what each stage has made into a folder; without one it does nothing.
-
-    Raises
-    ------
-    OutputError
-        The folder can't be made, or holds something else.
-    """
+    """Draws what each stage has made into a folder, which holds nothing else; without one it does nothing."""
 
     def __init__(self, folder: str | os.PathLike[str] | None) -> None:
         self.folder = None if folder is None else Path(folder)
@@ -106,14 +100,13 @@ class StagePictures:
             self._save(4, *map(self._seen, looks))
 
     def _view(self, V: Floats, F: Ints, side: int = 0) -> View:
-        view = view_of(V, guess_up(V, F), *_SIDES[side])
-        return View(view.eye, view.axes, view.centre, _FRAME * view.half)
+        return view_of(V, guess_up(V, F), *_SIDES[side])
 
     def _seen(self, look: Look, side: int = 0) -> Picture:
         return self._drawn(look, self._view(look[0], look[1], side))
 
     def _drawn(self, look: Look, view: View) -> Picture:
-        return render(scene_of(*look), view, _SIZE)
+        return render(scene_of(*look), replace(view, half=_FRAME * view.half), _SIZE)
 
     def _save(self, stage: int, *halves: Picture) -> None:
         from PIL import Image
@@ -133,8 +126,7 @@ def _raised(uv: Floats) -> Floats:
 
 
 def _above(V: Floats) -> View:
-    view = view_of(V, np.array([0.0, 1.0, 0.0]), 0.0, 0.0)
-    return View(view.eye, view.axes, view.centre, _FRAME * view.half)
+    return view_of(V, np.array([0.0, 1.0, 0.0]), 0.0, 0.0)
 
 
 def _middle_part(atlas: Atlas) -> Floats:
@@ -151,7 +143,7 @@ def _over(picture: Picture, lines: Floats, view: View) -> Picture:
     image: Any = Image.fromarray(picture)
     pen = ImageDraw.Draw(image)
     at = ((_raised(lines.reshape(-1, 2)) - view.eye) @ view.axes.T)[:, :2] / view.eye[2]
-    pixel = ((at - view.centre) / view.half * [1, -1] + 1) * len(picture) / 2
+    pixel = ((at - view.centre) / (_FRAME * view.half) * [1, -1] + 1) * len(picture) / 2
     for line in pixel.reshape(-1, 4).tolist():
         pen.line(line, fill=_CUTS, width=2)
     return np.asarray(image)
