@@ -20,9 +20,11 @@ from meshjig.errors import (
     SolidError,
 )
 
+# __init__.pyi tells type checkers the same; a test holds the two together
 _HOMES = {
     "Atlas": "meshjig.mesh.types",
     "CutMesh": "meshjig.mesh.types",
+    "MappedAtlas": "meshjig.charts",
     "Mesh": "meshjig.mesh.types",
     "Options": "meshjig.options",
     "Outlines": "meshjig.mesh.types",
@@ -54,6 +56,8 @@ __all__ = [
     "OptionError",
     "OutputError",
     "SolidError",
+    "__version__",
+    "check",
     *_HOMES,
 ]
 
@@ -61,7 +65,14 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Load a public name where it lives, when it is first used: imports cost a command its start."""
     if name in _HOMES:
-        return getattr(importlib.import_module(_HOMES[name]), name)
+        value = globals()[name] = getattr(importlib.import_module(_HOMES[name]), name)
+        return value
+    if name == "check":
+        return importlib.import_module("meshjig.check")
+    if name == "__version__":
+        from meshjig.pipeline.report import meshjig_version
+
+        return meshjig_version()
     raise AttributeError(f"module 'meshjig' has no attribute {name!r}")
 
 

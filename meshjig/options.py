@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal, TypedDict, Unpack, cast
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from meshjig.errors import OptionError
 
-__all__ = ["PROCESSES", "Options"]
+__all__ = ["PROCESSES", "OptionKeywords", "Options"]
 
 Preset = dict[str, Any]
 
@@ -23,6 +24,51 @@ PROCESSES: dict[str, Preset] = {
 OF_TILES = {"angle", "charts", "pole", "random_style", "tile"}
 OF_CELLS = {"crease_aware", "style"}
 _SAYINGS = {"extra_forbidden": "there is no such option", "too_short": "at least one is needed"}
+
+
+class OptionKeywords(TypedDict, total=False):
+    """The fields of `Options` as keywords, for type checkers; None stands for what is not given."""
+
+    pieces: int | None
+    piece_size: float | None
+    size: float | None
+    faces: int | Literal["all"] | None
+    thickness: float | None
+    clearance: float | None
+    min_neck: float | None
+    min_wall: float | None
+    clearance_method: Literal["stretch", "domain", "solid"] | None
+    join: Literal["miter", "round"] | None
+    side: Literal["in", "out", "both"] | None
+    process: str | None
+    resurface: bool | None
+    layout: Literal["cells", "tiles"] | None
+    style: Literal["cvt", "quad"] | None
+    knob_size: float | None
+    crease_aware: bool | None
+    tile: str | None
+    random: float | None
+    random_style: Literal["bspline", "bilinear"] | None
+    unique: bool | None
+    min_piece: float | None
+    charts: Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"] | None
+    pole: Literal["wedge", "capstone"] | None
+    fill_holes: float | None
+    angle: float | None
+    stitch: float | None
+    cavities: bool | None
+    labels: bool | None
+    core: bool | None
+    seed: int | None
+    format: str | Sequence[str] | None
+    plate: str | None
+    nest: Literal["fast", "tight"] | None
+    explode: float | None
+    viewer: bool | None
+    guide: bool | None
+    turntable: bool | None
+    curves: bool | None
+    processes: Mapping[str, Mapping[str, float]]  # of one's own: a name, and any of their four figures
 
 
 class Options(BaseModel):
@@ -128,7 +174,7 @@ class Options(BaseModel):
         return {**known[process], **given}
 
     @classmethod
-    def of(cls, **given: Any) -> Options:
+    def of(cls, **given: Unpack[OptionKeywords]) -> Options:
         """Make options from keywords.
 
         Parameters
@@ -143,7 +189,7 @@ class Options(BaseModel):
             A name is unknown or a value is out of range; the sentence names it.
         """
         try:
-            return cls(**given)
+            return cls(**cast(Any, given))
         except ValidationError as error:
             first = error.errors()[0]
             says = _SAYINGS.get(first["type"]) or first["msg"].removeprefix("Value error, ")

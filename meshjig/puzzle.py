@@ -17,7 +17,7 @@ __all__ = ["Curves", "Piece", "Puzzle"]
 GREY = (0.7, 0.7, 0.7)  # files of single pieces have no colour
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Piece(named.Piece):
     """One piece of a puzzle, in its place on the model."""
 
@@ -30,15 +30,32 @@ class Piece(named.Piece):
 
         return trimesh.Trimesh(self.V, self.F, process=False)
 
+    def __repr__(self) -> str:
+        return f"<Piece {self.id}: {self.name}, {len(self.V)} vertices, {len(self.F)} faces>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Puzzle:
-    """Pieces that cover a model, and what was measured of them."""
+    """Pieces that cover a model, and what was measured of them.
+
+    Two puzzles are equal when their pieces and cores are, to the last bit; reports hold seconds, too.
+    """
 
     pieces: list[Piece]
     report: dict[str, Any]
     curves: Curves = field(default_factory=Curves)
     core: list[named.Piece] = field(default_factory=list)  # parts of what it is built up on, where asked for
+
+    def __repr__(self) -> str:
+        model, promises = self.report.get("input", {}), "kept" if self.report.get("ok") else "broken"
+        size = " x ".join(f"{extent:.0f}" for extent in model.get("size_mm", []))
+        of = f"{Path(model.get('file') or 'a mesh').name}, {size} mm" if size else "a mesh"
+        return f"<Puzzle of {of}: {len(self.pieces)} pieces, promises {promises}>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Puzzle):
+            return NotImplemented
+        return self.pieces == other.pieces and self.core == other.core
 
     def save(
         self,

@@ -5,8 +5,9 @@
     scripts/bench.py solids                            seconds of the solids by pieces and by faces
     scripts/bench.py charts --corpus DIR               charts, seams and seconds, xatlas beside them
     scripts/bench.py cells --corpus DIR                cells, knobs and cut, against one LSCM a cell
+    scripts/bench.py against REV_OR_DIR [--mesh FILE]  another checkout against this one, in turn
 
-Without a name, everything runs that can. The peer is a script called as `FILE MESH --grid 10
+Without a name, everything runs that can but `against`. The peer is a script called as `FILE MESH --grid 10
 --thickness 2 --gap 0.2 --axis auto --out DIR --json`, which prints its wall_s. Both start from the same
 clean mesh, and both count their imports.
 """
@@ -19,11 +20,12 @@ import tempfile
 import time
 from pathlib import Path
 
-from benches import cells, charts
+from benches import against, cells, charts
 
 MESHES = ("stanford-bunny.obj", "nefertiti.obj")
 SIZES = (50_000, 200_000, 1_000_000)
 PIECES = (50, 100, 200, 400)
+WHAT = ("peer", "growth", "solids", "charts", "cells", "against")
 NOT_MAKING = ("check", "preview", "viewer", "guide")  # the peer neither judges nor draws
 
 
@@ -31,13 +33,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument(
-        "what", nargs="*", choices=["peer", "growth", "solids", "charts", "cells", []], default=[]
-    )
+    parser.add_argument("what", nargs="*", help=", ".join(WHAT))
     parser.add_argument(
         "--corpus", type=Path, help="folder with stanford-bunny.obj, nefertiti.obj and others"
     )
     parser.add_argument("--peer", type=Path, help="script of the projected-cutter route")
+    parser.add_argument("--mesh", type=Path, nargs="+", help="for against; else the bunny")
+    parser.add_argument("--pieces", type=int, default=100, help="for against")
     parser.add_argument("--runs", type=int, default=3, help="runs of each, in turn; the median is quoted")
     parser.add_argument(
         "--method", default="solid", help="clearance method of ours: solid, stretch or domain"
@@ -46,6 +48,13 @@ def main() -> int:
     a = parser.parse_args()
     if a.worker:
         return _worker(Path(a.worker[0]), Path(a.worker[1]), int(a.worker[2]), a.method)
+    if a.what[:1] == ["against"]:
+        if len(a.what) != 2:
+            parser.error("against needs one revision or folder")
+        against.run(a.what[1], a.mesh or [_bunny()], a.runs, a.pieces)
+        return 0
+    if set(a.what) - set(WHAT):
+        parser.error(f"choose from {', '.join(WHAT)}")
     if "peer" in a.what and not (a.corpus and a.peer):
         parser.error("peer needs --corpus and --peer")
     if {"charts", "cells"} & set(a.what) and not a.corpus:
@@ -71,6 +80,12 @@ def main() -> int:
         for faces in SIZES[:2]:
             print(f"{faces:>10} faces   {_vase(faces, 100, 'solid')['stages']['solid']:.2f} s", flush=True)
     return 0
+
+
+def _bunny() -> Path:
+    import pymeshlab
+
+    return Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
 
 
 def _against_peer(mesh: Path, peer: Path, runs: int, method: str) -> None:

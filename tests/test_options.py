@@ -49,7 +49,7 @@ def test_formats_are_a_list_with_commas():
 def test_every_option_is_a_flag():
     flags = set(inspect.signature(make).parameters)
     assert set(Options.model_fields) <= flags
-    own = {"mesh", "output", "config", "dry_run", "as_json", "verbose", "quiet"}
+    own = {"mesh", "output", "config", "dry_run", "debug_dir", "as_json", "verbose", "quiet"}
     assert flags - set(Options.model_fields) == own
 
 

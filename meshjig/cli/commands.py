@@ -77,6 +77,9 @@ def make(
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="only say what would be made, and write nothing")
     ] = False,
+    debug_dir: Annotated[
+        Path | None, typer.Option("--debug-dir", metavar="DIR", help="also draw there what each stage makes")
+    ] = None,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
@@ -98,7 +101,7 @@ def make(
             scan = ReadAhead(mesh)
             from meshjig.pipeline.make import make_puzzle
 
-            puzzle = make_puzzle(scan, progress=progress, options=options)
+            puzzle = make_puzzle(scan, progress=progress, options=options, debug_dir=debug_dir)
             progress("write", "start")
             puzzle.save(target)
         if not quiet:

@@ -12,7 +12,7 @@ from meshjig.output.texture import Texture
 __all__ = ["Piece", "explode_pieces", "exploded", "explosion"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One solid in its assembled position.
 
@@ -32,6 +32,13 @@ class Piece:
         if self.texture is None:
             return np.tile(self.colour, (len(self.F), 1))
         return self.texture.rgb.mean(axis=1)
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the other is the same solid by the same name, to the last bit; colours may differ."""
+        if not isinstance(other, Piece):
+            return NotImplemented
+        same = np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
+        return self.name == other.name and same
 
 
 def explosion(V: Floats, piece_of_vertex: Ints) -> Floats:

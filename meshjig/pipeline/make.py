@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -21,10 +22,11 @@ from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.pieces import Pieces, piece_names
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh
-from meshjig.options import Options
+from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.printers import estimate
 from meshjig.output.texture import textures
+from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import add_core, core_of, finished
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
@@ -43,7 +45,12 @@ WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start th
 
 
 def make_puzzle(
-    mesh: Any, *, progress: Progress | None = None, options: Options | None = None, **keywords: Any
+    mesh: Any,
+    *,
+    progress: Progress | None = None,
+    options: Options | None = None,
+    debug_dir: str | os.PathLike[str] | None = None,
+    **keywords: Unpack[OptionKeywords],
 ) -> Puzzle:
     """Turn a triangle mesh into a jigsaw puzzle of its surface.
 
@@ -54,6 +61,8 @@ def make_puzzle(
         Called with a stage's name and "start" or "end".
     options : Options, optional
         In place of keywords.
+    debug_dir : path, optional
+        A folder that gets a picture of what each stage has made.
     **keywords
         The fields of `Options`.
 
@@ -68,6 +77,7 @@ def make_puzzle(
     """
     options = options or Options.of(**keywords)
     refuse_unknown_names(options)
+    pictures = StagePictures(debug_dir)
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
@@ -78,16 +88,20 @@ def make_puzzle(
     try:
         if options.layout == "cells":
             layout = cell_layout(surface, options, stages)
+            pictures.atlas(layout.atlas)
         else:
             with stages("charts"):
                 atlas = _atlas(scan, surface, longest, options)
+            pictures.atlas(atlas)
             layout = tile_layout(atlas, options, stages)
+        pictures.layout(layout)
         _refuse_a_hollow_piece(layout)
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
             sheets, n_crossings, crossing = beside.result()
             scan = replace(scan, facts=replace(scan.facts, self_crossings=n_crossings))
+            pictures.shell(surface, sheets)
             pieces, solid_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
             pieces, label_facts = finished(pieces, surface, sheets, options)
@@ -115,6 +129,7 @@ def make_puzzle(
     report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
     tints, outward = colours(len(pieces), locks.pairs), _outer_normals(layout)
     dressed = _dressed(pieces, tints, outward, scan, options)
+    pictures.pieces(dressed)
     report["material"] = estimate(dressed, options.process)
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
     return Puzzle(dressed, report, curves, core)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from meshjig.charts import MappedAtlas, build_atlas
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Mesh
-from meshjig.options import Options
+from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import write_report
 from meshjig.pipeline.report import meshjig_version
@@ -25,7 +25,7 @@ KIND = "set of charts"  # what its folder holds
 WIDEST_HOLE = 0.1  # of the largest extent: few and large pieces must not close the rim of a vase
 
 
-def atlas(mesh: Any, *, options: Options | None = None, **keywords: Any) -> MappedAtlas:
+def atlas(mesh: Any, *, options: Options | None = None, **keywords: Unpack[OptionKeywords]) -> MappedAtlas:
     """Cut the surface of a mesh into few, large charts, and flatten them to the plane.
 
     Parameters

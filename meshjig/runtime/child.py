@@ -48,6 +48,7 @@ class Child:
         )
         self._questions = cast(IO[bytes], self.process.stdin)
         self._answers = cast(IO[bytes], self.process.stdout)
+        _running.add(self)
 
     def ask(self, question: bytes) -> Any:
         """Give the answer.
@@ -81,12 +82,14 @@ class Child:
 
     def end(self) -> None:
         """End the child, and close what led to it."""
+        _running.discard(self)
         self.kill()
         for pipe in (self._questions, self._answers):
             with contextlib.suppress(OSError):
                 pipe.close()
 
 
+_running: set[Child] = set()
 _idle: list[Child] = []
 _taking = threading.Lock()
 
@@ -112,7 +115,7 @@ def keep_idle(child: Child) -> None:
 
 @atexit.register
 def _end_all() -> None:
-    for child in _idle:
+    for child in list(_running):  # those still at work, too: nobody will hear their answers
         if child.owner == os.getpid():
             child.end()
 
