@@ -15,11 +15,12 @@ from meshjig.charts.chart import Chart, Charting, lay_out
 from meshjig.charts.cuts import TrimmingCurve, trimming_curves
 from meshjig.charts.lift import curve, lift
 from meshjig.charts.regularize import regularize
-from meshjig.charts.segment.segment import WORTH_A_CHILD, chart_options, get_ready
+from meshjig.charts.segment.segment import chart_options, get_ready
 from meshjig.errors import ChartError, OptionError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.types import Atlas, Mesh
+from meshjig.runtime.thresholds import CHARTS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 
 __all__ = ["AtlasMethod", "ChartFacts", "MappedAtlas", "build_atlas"]
@@ -117,7 +118,7 @@ def build_atlas(
         brought = file_uv(mesh, source, np.eye(4) if to_source is None else to_source)
         parts = [(np.arange(len(mesh.F)), Charting(brought, "uv"))]
     else:
-        searches = method in ("auto", "lscm", "arap", "slim") and len(mesh.F) >= WORTH_A_CHILD
+        searches = method in ("auto", "lscm", "arap", "slim") and len(mesh.F) >= CHARTS_WORTH_A_CHILD
         ready = Background(get_ready) if searches else None
         smooth = regularize(mesh, seed)
         options = ChartOptions(method, seed, zipped, xatlas_options)

@@ -6,11 +6,9 @@ import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
-from meshjig.mesh.types import Atlas, Mesh
+from meshjig.mesh.types import UV_GRID, Atlas, Mesh
 
 __all__ = ["Chart", "Charting", "lay_out", "lie_along", "shelves", "uncut_chart"]
-
-_GRID = 2.0**-18  # mm, of everything in a periodic chart: both sides of its closing line then match exactly
 
 
 @dataclass(frozen=True)
@@ -81,8 +79,8 @@ def lay_out(mesh: Mesh, charts: list[Chart], margin: float = 5.0) -> Atlas:
 
 def _on_grid(uv: Floats) -> Floats:
     """Round a periodic chart, and move it to the origin, without turning it."""
-    steps = np.rint(uv / _GRID)
-    moved: Floats = (steps - steps.min(0)) * _GRID
+    steps = np.rint(uv / UV_GRID)
+    moved: Floats = (steps - steps.min(0)) * UV_GRID
     return moved
 
 

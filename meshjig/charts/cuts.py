@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected
-from meshjig.mesh.boundary_loops import runs
+from meshjig.mesh.chains import runs
 from meshjig.mesh.halfedges import Edges, edges, next_halfedge
 from meshjig.mesh.types import Atlas
 

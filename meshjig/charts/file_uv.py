@@ -16,14 +16,14 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import Edges, border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import face_areas, sums
-from meshjig.mesh.types import Mesh
+from meshjig.mesh.types import UV_GRID, Mesh
 
 __all__ = ["closed_around", "file_uv"]
 
 _MOST = 60  # islands that can make charts: tiles on smaller ones would nearly all be cut by seams
 _NEXT_TO_NONE = 1e-6  # what the UV of a torn-off face counts, where other faces know better
 _JUMP = 0.5  # of the texture: a face that reaches farther goes around its edge
-_UV_STEP, _PERIOD_STEP = 2.0**-18, 2.0**-8  # mm, as in rings made again
+_PERIOD_STEP = 2.0**-8  # mm
 _SAME = 0.02  # of the period: shifts between the sides that differ by less are one
 _LEAST = 0.2  # of the root of the area; shorter shifts join teeth, not the two ends of a strip
 
@@ -140,7 +140,7 @@ def closed_around(chart: Chart, e: Edges, within: float = 1e-3) -> Chart:
     c, s = shift[closing].mean(0) / max(float(np.linalg.norm(shift[closing].mean(0))), 1e-300)
     uv = chart.uv @ np.array([[c, -s], [s, c]])
     exact = max(1.0, np.rint(length / _PERIOD_STEP)) * _PERIOD_STEP
-    uv = np.rint(uv * [exact / length, length / exact] / _UV_STEP) * _UV_STEP
+    uv = np.rint(uv * [exact / length, length / exact] / UV_GRID) * UV_GRID
     a, b = here[closing], there[closing]
     left = uv[a, 0] < uv[b, 0]
     uv[b[left]] = uv[a[left]] + [exact, 0.0]

@@ -7,13 +7,14 @@ import numpy as np
 from meshjig.charts.chart import Chart, Charting, uncut_chart
 from meshjig.charts.distortion import border_is_simple, flat_share
 from meshjig.charts.flatten.flatten import Method, flatten
-from meshjig.charts.segment.segment import WORTH_A_CHILD, segment
+from meshjig.charts.segment.segment import segment
 from meshjig.charts.segment.split import flatten_or_split
 from meshjig.charts.transfer.transfer_charts import transfer_charts
 from meshjig.charts.zip.zip import zip_charts
 from meshjig.errors import ChartError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.mesh import Mesh
+from meshjig.runtime.thresholds import CHARTS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 
 __all__ = ["own_charts", "single_chart"]
@@ -74,7 +75,7 @@ def _sound_charts(
     order = sorted(range(len(given)), key=lambda k: -len(given[k]))
     found: list[list[Chart]] = [[] for _ in given]
     asked = (V, F, [given[k] for k in order[1::2]], method, seed, least_share)
-    other = Background(_rescued, *asked, alone=len(F) < WORTH_A_CHILD or len(given) < 2)
+    other = Background(_rescued, *asked, alone=len(F) < CHARTS_WORTH_A_CHILD or len(given) < 2)
     try:
         for k in order[::2]:
             found[k] = _rescued(V, F, [given[k]], method, seed, least_share)[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -91,7 +91,7 @@ def judge_core(
     return CoreChecks(gap, sum(shared.values()), sum(crossings)), failures
 
 
-def add_failures(failures: dict[str, list[str]], more: dict[str, list[str]]) -> None:
+def add_failures(failures: dict[str, list[str]], more: Mapping[str, list[str]]) -> None:
     """Add to the names of promises those that others break, each name once."""
     for promise, names in more.items():
         own = failures.setdefault(promise, [])

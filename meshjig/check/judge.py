@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +16,7 @@ from meshjig.check.thickness import Thickness, measure_thickness, without_sheets
 from meshjig.errors import InputError
 from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.pieces import Pieces
+from meshjig.runtime.thresholds import FILES_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 
 __all__ = ["Verdict", "judge"]
@@ -27,14 +28,13 @@ WIDE_SHARE = 1.1  # of the clearance, that the median gap of all may have
 WIDE_PAIR_SHARE = 1.25  # of the clearance, that the median gap of two neighbours may have
 THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
 EXEMPTIBLE = ("self_intersections", "overlap_mm3", "gap_mm", "gap_wide_mm")
-WORTH_A_CHILD = 60_000  # faces; below, a child process takes longer to start than it saves
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What was measured, and which promises are broken by which pieces."""
 
-    checks: dict[str, Any]  # the report's "checks"; None for what the pieces alone don't tell
+    checks: Mapping[str, Any]  # the report's "checks"; None for what the pieces alone don't tell
     failures: dict[str, list[str]] = field(default_factory=dict)  # promise: names of pieces
     exempt: dict[str, list[str]] = field(default_factory=dict)  # promise: exempt pieces that break it
     named: dict[str, list[str]] = field(default_factory=dict)  # counted, but no promise: its pieces
@@ -115,7 +115,7 @@ def judge(
             if found:
                 blamed[promise] = [names[i] for i in sorted(found)]
 
-    small = sum(len(F) for _, F in pieces) < WORTH_A_CHILD
+    small = sum(len(F) for _, F in pieces) < FILES_WORTH_A_CHILD
     beside = Background(_each_alone, list(pieces), alone=small)
     try:
         gap = gap_between(pieces, clearance)

@@ -28,9 +28,9 @@ from meshjig.cli.terminal import (
     tell_notes,
 )
 from meshjig.errors import OptionError
+from meshjig.runtime.bounded import ReadAhead
 from meshjig.runtime.interpreter import end_with_parent
 from meshjig.runtime.messages import tell, tell_through
-from meshjig.runtime.read_ahead import ReadAhead
 
 __all__ = ["app", "run", "run_behind_front"]
 

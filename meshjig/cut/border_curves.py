@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshjig.mesh.cycles import chains
+from meshjig.mesh.chains import chains
 from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
 from meshjig.mesh.measure import barycentric
 from meshjig.mesh.types import Atlas, Bools, CutMesh, Floats, Ints, Outlines

@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshjig.mesh.arrays import connected, starts
-from meshjig.mesh.cycles import chains
+from meshjig.mesh.chains import chains
 from meshjig.mesh.types import CutMesh, Floats, Ints, Outlines
 
 __all__ = ["cut_curves"]

@@ -12,7 +12,7 @@ from meshjig.cut.region_labels import Regions, joined_over_seams, label_at, labe
 from meshjig.cut.snap import snap
 from meshjig.cut.triangulate import Filling, fill
 from meshjig.cut.uv_mesh import UvMesh, make_uv_mesh
-from meshjig.mesh.cycles import Cycles, cycles
+from meshjig.mesh.chains import Cycles, cycles
 from meshjig.mesh.refinement import at_corners
 from meshjig.mesh.types import Atlas, CutFacts, CutMesh, Floats, Ints, Mesh, Outlines
 

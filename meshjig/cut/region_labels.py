@@ -10,7 +10,7 @@ from meshjig.cut.snap import Graph
 from meshjig.cut.trace import FaceSegments
 from meshjig.cut.uv_mesh import UvMesh
 from meshjig.mesh.arrays import connected
-from meshjig.mesh.cycles import Cycles
+from meshjig.mesh.chains import Cycles
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.types import Bools, Ints
 

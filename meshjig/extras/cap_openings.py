@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.boundary_loops import follow
+from meshjig.mesh.chains import follow
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 from meshjig.mesh.measure import face_areas, unit

@@ -62,7 +62,9 @@ def _cut(
         cut = overlay(atlas, knobs.outlines)
     with stages("stitch"):
         stitching = stitch(region_graph(cut), NEVER, mean_area, smallest=options.min_piece)
-    atlas = Atlas(atlas.mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, atlas.facts | asdict(knobs.facts))
+    atlas = Atlas(
+        atlas.mesh, atlas.uv, atlas.F_uv, atlas.chart_of_face, dict(atlas.facts) | asdict(knobs.facts)
+    )
     return Layout(atlas, knobs.outlines, knobs.knobs, cut, stitching, cells)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from meshjig.cut import merge_periodic
 from meshjig.layout.layout import Layout
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.boundary_loops import follow
+from meshjig.mesh.chains import follow
 from meshjig.mesh.halfedges import edge_keys, edges, next_halfedge
 from meshjig.mesh.types import CutMesh, Knobs
 

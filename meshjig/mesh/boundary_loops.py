@@ -1,27 +1,19 @@
 """Walks along edges: the borders of a mesh in order, and paths from one branching to the next."""
 
-from typing import TypeVar
-
 import numpy as np
 
-from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.arrays import Ints
 from meshjig.mesh.halfedges import border_halfedges, next_halfedge
 
 __all__ = [
     "border_loop",
     "border_loops",
     "borders_by_length",
-    "chains",
     "closed_loops",
-    "follow",
     "longest_loop",
     "loops_by_length",
-    "runs",
     "single_loop",
-    "summed_along",
 ]
-
-Numbers = TypeVar("Numbers", Ints, Floats)
 
 
 def border_loop(F: Ints) -> Ints:
@@ -121,102 +113,3 @@ def single_loop(start: Ints, end: Ints) -> Ints | None:
         if len(loop) > len(start):
             return None
     return np.array(loop, np.int64) if len(loop) == len(start) else None
-
-
-def runs(following: Ints, goes_on: Bools) -> list[Ints]:
-    """Divide closed walks at their breaks.
-
-    Parameters
-    ----------
-    following : (k,) int64, what comes after each thing
-    goes_on : (k,) bool, whether there is no break after it
-
-    Returns
-    -------
-    list of int64 arrays: from each break to the next; then the walks that have none
-    """
-    step, on = following.tolist(), goes_on.tolist()
-    done = [False] * len(step)
-    found = []
-    for at in following[~goes_on].tolist() + list(range(len(step))):
-        run = []
-        while not done[at]:
-            done[at] = True
-            run.append(at)
-            if not on[at]:
-                break
-            at = step[at]
-        if run:
-            found.append(np.array(run, np.int64))
-    return found
-
-
-def chains(E: Ints, stops: Ints) -> list[Ints]:
-    """Follow edges from one vertex where they end, branch or are stopped to the next.
-
-    Parameters
-    ----------
-    E : (k, 2) int64, vertices
-    stops : (s,) int64, vertices where chains end though they would go on
-
-    Returns
-    -------
-    list of int64 arrays, rows of E in order along the chain; a loop starts anywhere
-    """
-    vertex, number = np.unique(E, return_inverse=True)
-    E = number.reshape(-1, 2)
-    stops = np.flatnonzero(np.isin(vertex, stops))
-    n = len(vertex)
-    degree = np.bincount(E.ravel(), minlength=n)
-    node = degree != 2
-    node[stops] = True
-    order = np.argsort(E.ravel(), kind="stable")
-    start = np.append(0, np.cumsum(degree)).tolist()
-    at_vertex, ends, is_node = (order // 2).tolist(), E.tolist(), node.tolist()
-    done = [False] * len(ends)
-
-    def walk(row: int, vertex: int) -> list[int]:
-        chain = []
-        while not done[row]:
-            done[row] = True
-            chain.append(row)
-            vertex = ends[row][1] if ends[row][0] == vertex else ends[row][0]
-            if is_node[vertex]:
-                break
-            first, second = at_vertex[start[vertex] : start[vertex + 1]]
-            row = second if first == row else first
-        return chain
-
-    found = [
-        walk(at_vertex[i], v) for v in np.flatnonzero(node).tolist() for i in range(start[v], start[v + 1])
-    ]
-    found += [walk(row, ends[row][0]) for row in range(len(ends))]
-    return [np.array(chain, np.int64) for chain in found if chain]
-
-
-def follow(after: Ints | list[int], first: int, seen: set[int]) -> list[int]:
-    """Walk from one thing to what comes after it, until the end (-1) or what was seen; all are seen then."""
-    walk, at = [], first
-    while at >= 0 and at not in seen:
-        seen.add(at)
-        walk.append(at)
-        at = int(after[at])
-    return walk
-
-
-def summed_along(after: Ints, values: Numbers) -> tuple[Numbers, Ints]:
-    """Add up values (k,) from each thing to the last that comes after it, all chains at once.
-
-    Parameters
-    ----------
-    after : (k,) int64, what comes after each thing; itself at the end of a chain, nothing in a ring
-    values : (k,), 0 at the ends
-
-    Returns
-    -------
-    total : (k,)
-    last : (k,) int64
-    """
-    while (after[after] != after).any():  # twice as far each time
-        values, after = values + values[after], after[after]
-    return values, after

@@ -12,6 +12,7 @@ __all__ = [
     "compact",
     "edge_keys",
     "edges",
+    "incident_faces",
     "next_halfedge",
 ]
 
@@ -104,3 +105,10 @@ def compact(F: Ints) -> tuple[Ints, Ints]:
     kept = np.flatnonzero(used)
     number = np.cumsum(used) - 1
     return number[F], kept
+
+
+def incident_faces(F: Ints, vertices: Ints, n: int) -> Ints:
+    """Give the faces (m, 3) that have one of some vertices, of n in all; (k,) int64, in order."""
+    near = np.zeros(n, bool)
+    near[vertices] = True
+    return np.flatnonzero(near[F[:, 0]] | near[F[:, 1]] | near[F[:, 2]])

@@ -89,7 +89,7 @@ class Mesh:
             other.__dict__["edges"] = self.edges
         return other
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, Floats | Ints]:
         return {"V": self.V, "F": self.F}  # to another process go the arrays alone
 
 

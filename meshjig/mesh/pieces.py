@@ -104,5 +104,5 @@ class Pieces:
             pairs.append(np.stack([np.full(len(others), i), others], 1))
         return np.concatenate(pairs)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         return {"names": self.names, "solids": self.solids, "neighbours": self.neighbours}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,7 @@ class RayScene:
         )
         return np.asarray(found >= 0)
 
-    def hits(self, origin: Numbers, direction: Numbers) -> dict[str, Any]:
+    def hits(self, origin: Numbers, direction: Numbers) -> Mapping[str, NDArray[Any]]:
         """Give all that Embree says of the first hit: primID, tfar, u, v, Ng; each (k,) or (k, 3)."""
         return self._scene.run(_single(origin), _single(direction), output=1)
 

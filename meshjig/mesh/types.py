@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,6 +12,7 @@ from meshjig.mesh.refinement import Refinement
 
 __all__ = [
     "GAP",
+    "UV_GRID",
     "Atlas",
     "Bools",
     "CutFacts",
@@ -26,6 +28,7 @@ __all__ = [
 ]
 
 GAP = -1  # the label of faces that belong to no piece
+UV_GRID = 2.0**-18  # mm; what repeats in the plane has coordinates that are multiples of it
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,7 @@ class Atlas:
     uv: Floats  # (k, 2), mm
     F_uv: Ints  # (m, 3), corners into uv
     chart_of_face: Ints  # (m,)
-    facts: dict[str, Any] = field(default_factory=dict)  # the report's "charts"
+    facts: Mapping[str, Any] = field(default_factory=dict)  # the report's "charts"
     period: Floats | None = None  # (c,), mm along u after which a chart repeats; 0 where it does not
 
     @property

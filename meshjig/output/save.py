@@ -16,13 +16,13 @@ from meshjig.output.folder import replace_folder
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
 from meshjig.output.report import Report, write_report
+from meshjig.runtime.thresholds import FILES_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 
 __all__ = ["FORMATS", "Outputs", "save_puzzle"]
 
 FORMATS = ("stl", "ply", "3mf", "obj", "glb")
 CORE = "core"  # its folder
-WORTH_A_CHILD = 60_000  # faces; below, a child process takes longer to start than it saves
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def save_puzzle(
 @contextmanager
 def _drawn(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> Iterator[Background]:
     """Draw pictures beside the caller, who asks for the seconds they took once they are needed."""
-    small = sum(len(piece.F) for piece in pieces) < WORTH_A_CHILD
+    small = sum(len(piece.F) for piece in pieces) < FILES_WORTH_A_CHILD
     none = not (outputs.preview or outputs.turntable)
     child = Background(_draw, folder, list(pieces), outputs, alone=small or none)
     try:

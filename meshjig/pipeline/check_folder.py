@@ -9,12 +9,12 @@ from typing import Any
 
 from meshjig.check import add_failures, judge, judge_core
 from meshjig.output.files.read_pieces import read_puzzle_files
-from meshjig.output.report import read_expectations, read_missing
+from meshjig.output.report import Report, read_expectations, read_missing
 
 __all__ = ["rejudge"]
 
 
-def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str, Any]:
+def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Report:
     """Judge finished pieces, and the core where there is one, by their files alone.
 
     Parameters
@@ -38,7 +38,7 @@ def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> dict[str
     pieces, core, report = read_puzzle_files(paths)
     asked = read_expectations(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
     verdict = judge(pieces, **asked)
-    result: dict[str, Any] = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
+    result: Report = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt
     missing = read_missing(report, [name for name, _, _ in (*pieces, *core)])
     if missing:

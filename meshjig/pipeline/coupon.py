@@ -15,6 +15,7 @@ from meshjig.options import Options
 from meshjig.output.folder import replace_folder
 from meshjig.output.pictures.colours import colours
 from meshjig.output.piece import Piece
+from meshjig.output.report import Report
 from meshjig.pipeline.report import meshjig_version
 from meshjig.solid.printable import printable
 from meshjig.tiling.template import classic
@@ -82,7 +83,7 @@ def make_coupon(options: Options) -> list[Piece]:
     return [Piece(name, V, F, tuple(tints[i // 2])) for i, (name, V, F) in enumerate(pieces)]
 
 
-def save_coupon(directory: str | Path, options: Options) -> dict[str, Any]:
+def save_coupon(directory: str | Path, options: Options) -> Report:
     """Write coupon.3mf, a STL a tile, preview.png and report.json to a folder.
 
     Parameters

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
-from meshjig.check import add_failures, judge_core
+from meshjig.check import CoreChecks, judge_core
 from meshjig.extras import LETTERING, CoreShape, engrave, make_core
+from meshjig.extras.core import CoreFacts
+from meshjig.extras.engrave import LabelFacts
 from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
@@ -16,13 +18,25 @@ from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
 from meshjig.solid.printable import all_printable
 
-__all__ = ["add_core", "core_of", "finished"]
+__all__ = ["Core", "core_of", "finished", "judged_core"]
 
 CORE_WALLS = 2.0  # least walls of the process
 CORE_COLOUR = (0.6, 0.6, 0.6)
 
 
-def finished(pieces: Pieces, surface: Mesh, sheets: Shell, options: Options) -> tuple[Pieces, dict[str, Any]]:
+@dataclass(frozen=True)
+class Core:
+    """The body that a puzzle is built up on, and what was found of it."""
+
+    parts: list[Piece]
+    facts: CoreFacts
+    checks: CoreChecks | None = None  # None until it is judged
+    failures: Mapping[str, list[str]] = field(default_factory=dict)  # promises, and the names that break them
+
+
+def finished(
+    pieces: Pieces, surface: Mesh, sheets: Shell, options: Options
+) -> tuple[Pieces, LabelFacts | None]:
     """Give pieces their labels, where they are asked for, and make them such that files can hold them.
 
     Parameters
@@ -35,9 +49,9 @@ def finished(pieces: Pieces, surface: Mesh, sheets: Shell, options: Options) -> 
     Returns
     -------
     pieces : Pieces
-    facts : dict, of the labels, see `meshjig.extras.engrave`; empty without
+    facts : LabelFacts, or None without labels
     """
-    told: dict[str, Any] = {}
+    facts: LabelFacts | None = None
     solids = [(V, F) for V, F in pieces]
     if options.labels and all(len(F) for _, F in pieces):
         solids, facts = engrave(
@@ -48,27 +62,23 @@ def finished(pieces: Pieces, surface: Mesh, sheets: Shell, options: Options) -> 
             LETTERING.get(options.process, LETTERING["fdm"]),
             min_wall=options.min_wall,
         )
-        told = asdict(facts)
-    return pieces.with_solids(all_printable(solids)), told
+    return pieces.with_solids(all_printable(solids)), facts
 
 
-def core_of(surface: Mesh, sheets: Shell, options: Options) -> tuple[list[Piece], dict[str, Any]]:
-    """Make the body on which the puzzle is built up, in parts that fit the plate.
+def core_of(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
+    """Make the body on which the puzzle is built up, where it is asked for, in parts that fit the plate.
 
     Parameters
     ----------
     surface, sheets, options : as for `finished`
-
-    Returns
-    -------
-    parts : list of Piece
-    facts : dict, see `meshjig.extras.make_core`
 
     Raises
     ------
     SolidError
         The model has no room for a core.
     """
+    if not options.core:
+        return None
     plate = parse_plate(options.plate) if options.plate else None
     parts, facts = make_core(
         Mesh(sheets.outer, surface.F),
@@ -82,22 +92,17 @@ def core_of(surface: Mesh, sheets: Shell, options: Options) -> tuple[list[Piece]
         ),
     )
     sound = all_printable(parts)
-    return [Piece(f"core_{i + 1}", V, F, CORE_COLOUR) for i, (V, F) in enumerate(sound)], asdict(facts)
+    return Core([Piece(f"core_{i + 1}", V, F, CORE_COLOUR) for i, (V, F) in enumerate(sound)], facts)
 
 
-def add_core(
-    report: dict[str, Any],
-    core: list[Piece],
-    facts: dict[str, Any],
-    pieces: Pieces,
-) -> None:
-    """Judge a core, and add it to the report of its puzzle: its facts, and the promises it breaks."""
-    measured, broken = judge_core(
-        [(part.name, part.V, part.F) for part in core],
+def judged_core(core: Core | None, pieces: Pieces, options: Options, exempt: Sequence[str]) -> Core | None:
+    """Judge a core, where there is one, beside the pieces of its puzzle."""
+    if core is None:
+        return None
+    checks, failures = judge_core(
+        [(part.name, part.V, part.F) for part in core.parts],
         pieces,
-        clearance=report["options"]["clearance"],
-        exempt_pieces=report["exempt_pieces"],
+        clearance=options.clearance,
+        exempt_pieces=exempt,
     )
-    report["core"] = facts | asdict(measured)
-    add_failures(report["failures"], broken)
-    report["ok"] &= not broken
+    return replace(core, checks=checks, failures=failures)

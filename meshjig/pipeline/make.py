@@ -27,21 +27,22 @@ from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.printers import estimate
 from meshjig.output.texture import textures
 from meshjig.pipeline.debug_pictures import StagePictures
-from meshjig.pipeline.extras import add_core, core_of, finished
+from meshjig.pipeline.extras import core_of, finished, judged_core
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
-from meshjig.pipeline.report import assemble_report, told
+from meshjig.pipeline.report import Made, assemble_report
 from meshjig.pipeline.verify import judged
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
+from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 from meshjig.scan import Scan, self_crossings
 from meshjig.solid import Shell, kerf, shell
+from meshjig.solid.kerf import KerfFacts
 
 __all__ = ["make_puzzle"]
 
 MUCH_FINER = 1.1  # times as many faces: more freedom for charts
-WORTH_A_CHILD = 20_000  # faces; below, a child process takes longer to start than its work
 
 
 def make_puzzle(
@@ -83,7 +84,7 @@ def make_puzzle(
         scan = clean_scan(mesh, options)
         longest = _longest_edge(scan.mesh, options)
         surface = Mesh(*refine_long_edges(scan.mesh.V, scan.mesh.F, longest))
-    small = len(surface.F) < WORTH_A_CHILD
+    small = len(surface.F) < SOLIDS_WORTH_A_CHILD
     beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
     try:
         if options.layout == "cells":
@@ -102,10 +103,10 @@ def make_puzzle(
             sheets, n_crossings, crossing = beside.result()
             scan = replace(scan, facts=replace(scan.facts, self_crossings=n_crossings))
             pictures.shell(surface, sheets)
-            pieces, solid_facts = _solids(layout, parts, sheets, options)
+            pieces, kerf_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
-            pieces, label_facts = finished(pieces, surface, sheets, options)
-            core, core_facts = core_of(surface, sheets, options) if options.core else ([], {})
+            pieces, labels = finished(pieces, surface, sheets, options)
+            core = core_of(surface, sheets, options)
     except BaseException:
         beside.cancel()
         raise
@@ -115,31 +116,40 @@ def make_puzzle(
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
         pieces, verdict, mended = judged(replace(pieces, neighbours=neighbours), options, exempt)
-        solid_facts["dented"] = mended["dented"]
-        solid_facts["discarded_volume_share"] += mended["discarded"]
-        on_surface = parts if options.clearance_method != "solid" else None
-        report = assemble_report(options, scan, layout, on_surface, locks, verdict, pieces, solid_facts)
-        report["exempt_pieces"] = exempt
-        if options.labels:
-            report["labels"] = label_facts
-        if options.core:
-            add_core(report, core, core_facts, pieces)
-    if options.unique:
-        report["unique"] = told(clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1])
-    report |= {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
-    tints, outward = colours(len(pieces), locks.pairs), _outer_normals(layout)
-    dressed = _dressed(pieces, tints, outward, scan, options)
+        core = judged_core(core, pieces, options, exempt)
+        unique = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1] if options.unique else None
+        made = Made(
+            options=options,
+            scan=scan,
+            layout=layout,
+            on_surface=parts if options.clearance_method != "solid" else None,
+            sheets=sheets.facts,
+            kerf=kerf_facts,
+            locks=locks,
+            pieces=pieces,
+            exempt=exempt,
+            verdict=verdict,
+            mended=mended,
+            labels=labels,
+            core=core,
+            unique=unique,
+        )
+        report = assemble_report(made)
+    dressed = _dressed(made)
     pictures.pieces(dressed)
-    report["material"] = estimate(dressed, options.process)
+    measured = {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
+    report |= measured | {"material": estimate(dressed, options.process)}
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
-    return Puzzle(dressed, report, curves, core)
+    return Puzzle(dressed, report, curves, core.parts if core else [])
 
 
-def _dressed(pieces: Pieces, tints: Floats, outward: Floats, scan: Scan, options: Options) -> list[Piece]:
+def _dressed(made: Made) -> list[Piece]:
     """Give pieces their colours, and the picture of the scan where it has one."""
+    scan, options, pieces = made.scan, made.options, made.pieces
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
     solids = [(V, F) for V, F in pieces]
+    tints, outward = colours(len(pieces), made.locks.pairs), _outer_normals(made.layout)
     dressed = textures(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
         Piece(
@@ -207,12 +217,10 @@ def _leave_gaps(layout: Layout, options: Options) -> Parts:
     return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 
 
-def _solids(layout: Layout, parts: Parts, sheets: Shell, options: Options) -> tuple[Pieces, dict[str, Any]]:
+def _solids(layout: Layout, parts: Parts, sheets: Shell, options: Options) -> tuple[Pieces, KerfFacts]:
     """Give the pieces their thickness."""
     cut = parts.cut
     outer, D = (layout.carried(X, cut) for X in (sheets.outer, sheets.D))
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
-    report = told(sheets.facts) | told(facts)
-    report["discarded_volume_share"] += parts.discarded
-    return Pieces(tuple(piece_names(len(made))), tuple(made)), report
+    return Pieces(tuple(piece_names(len(made))), tuple(made)), facts

@@ -10,6 +10,7 @@ from meshjig.mesh.measure import face_areas
 from meshjig.options import Options
 from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import estimate_plates, estimate_volume, parse_plate
+from meshjig.output.report import Report
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 
@@ -18,7 +19,7 @@ __all__ = ["plan_puzzle"]
 COMMON_PLATE = "220x220"
 
 
-def plan_puzzle(mesh: Any, options: Options) -> dict[str, Any]:
+def plan_puzzle(mesh: Any, options: Options) -> Report:
     """Say what `make_puzzle` would make of a mesh, from its surface alone.
 
     Parameters

@@ -14,7 +14,7 @@ from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
-from meshjig.output.report import write_report
+from meshjig.output.report import Report, write_report
 from meshjig.pipeline.report import meshjig_version
 from meshjig.scan import Scan, read_scan
 from meshjig.scan.fill import fill_holes
@@ -50,7 +50,7 @@ def atlas(mesh: Any, *, options: Options | None = None, **keywords: Unpack[Optio
     return chart(clean_scan(mesh, options), options)
 
 
-def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> dict[str, Any]:
+def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> Report:
     """Say how good the charts of a mesh are, and draw them where a folder is given.
 
     Parameters
@@ -65,7 +65,7 @@ def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> 
     dict, the atlas' facts
     """
     if folder is None:
-        return atlas(mesh, options=options).facts
+        return dict(atlas(mesh, options=options).facts)
     from meshjig.output.pictures.atlas_sheet import draw_atlas
 
     inputs = [mesh] if isinstance(mesh, str | os.PathLike) else []
@@ -75,7 +75,7 @@ def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> 
             draw_atlas(made, scratch)
             report = {"meshjig": meshjig_version(), "kind": KIND, "charts": made.facts}
             write_report(scratch / "report.json", report)
-    return made.facts
+    return dict(made.facts)
 
 
 def chart(scan: Scan, options: Options) -> MappedAtlas:

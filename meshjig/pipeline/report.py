@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
-from meshjig.check import Verdict, area_cv, area_error
+from meshjig.check import Verdict, add_failures, area_cv, area_error
+from meshjig.extras.engrave import LabelFacts
+from meshjig.layout.congruent import UniqueFacts
 from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout, Parts
 from meshjig.layout.outer_gap import outer_gap
@@ -16,9 +18,14 @@ from meshjig.mesh.arrays import Floats
 from meshjig.mesh.measure import face_areas, mesh_volume, sums
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
+from meshjig.output.report import Report
+from meshjig.pipeline.extras import Core
+from meshjig.pipeline.verify import Mended
 from meshjig.scan import Scan
+from meshjig.solid.kerf import KerfFacts
+from meshjig.solid.offset_sheet import ShellFacts
 
-__all__ = ["assemble_report", "meshjig_version", "told"]
+__all__ = ["Made", "assemble_report", "meshjig_version", "told"]
 
 MOST_AREA_ERROR = 1e-6
 MOST_DISCARDED = 1e-3
@@ -32,77 +39,115 @@ def meshjig_version() -> str:
         return "unknown"
 
 
-def told(facts: Any) -> dict[str, Any]:
+def told(facts: Any) -> Report:
     """Give the fields of a stage's facts as the report has them: those that are known."""
     return {key: fact for key, fact in asdict(facts).items() if fact is not None}
 
 
-def assemble_report(
-    options: Options,
-    scan: Scan,
-    layout: Layout,
-    on_surface: Parts | None,
-    locks: Interlock,
-    verdict: Verdict,
-    pieces: Pieces,
-    solid_facts: dict[str, Any],
-) -> dict[str, Any]:
-    """Put together what report.json holds, but for timings and memory.
+@dataclass(frozen=True)
+class Made:
+    """All that a puzzle's report is put together from: what went in, what stages made and measured."""
 
-    Parameters
-    ----------
-    options, scan, layout, locks, verdict, pieces
-        What the stages made.
-    on_surface : Parts or None
-        The surface as it was cut with the gap; None where the gap was taken from the solids.
-    solid_facts : dict, what the solid stage says of itself
-    """
-    cut, mesh = layout.cut, layout.atlas.mesh
-    n = layout.stitching.n_pieces
+    options: Options
+    scan: Scan
+    layout: Layout
+    on_surface: Parts | None  # the surface as it was cut with the gap; None where the solids were
+    sheets: ShellFacts
+    kerf: KerfFacts
+    locks: Interlock
+    pieces: Pieces
+    exempt: list[str]  # pieces that crossings of the model itself touch
+    verdict: Verdict
+    mended: Mended
+    labels: LabelFacts | None
+    core: Core | None
+    unique: UniqueFacts | None
+
+    @property
+    def discarded_volume_share(self) -> float:
+        """The share of the volume, and before it of the surface, that the gap has cut off."""
+        on_surface = self.on_surface.discarded if self.on_surface else 0.0
+        return self.kerf.discarded_volume_share + on_surface + self.mended.discarded_volume_share
+
+
+def assemble_report(made: Made) -> Report:
+    """Put together what report.json holds, but for timings, memory, and the files that come with it."""
+    cut, locks, options = made.layout.cut, made.locks, made.options
     areas = face_areas(cut.V, cut.F)
-    area = sums(layout.piece_of_face, areas, n)
+    area = sums(made.layout.piece_of_face, areas, len(made.pieces))
+    checks = _checks(made, areas, area)
+    broken = _broken_as_a_whole(checks)
+    failures = {promise: list(names) for promise, names in made.verdict.failures.items()} | broken
+    add_failures(failures, made.core.failures if made.core else {})
+    thin = locks.thin_necked(_least_neck(options))
+    report = {
+        "meshjig": meshjig_version(),
+        "kind": "puzzle",
+        "input": made.scan.facts.as_dict(),
+        "options": options.model_dump(),
+        **_layout(made.layout),
+        "cut": asdict(cut.facts) if cut.facts else {},
+        "stitching": told(made.layout.stitching.facts),
+        "solid": told(made.sheets)
+        | told(made.kerf)
+        | {"discarded_volume_share": made.discarded_volume_share, "dented": made.mended.dented},
+        "pieces": _pieces(area, made.pieces, locks, options),
+        "checks": checks,
+        "names": made.verdict.named | {"thin_necks": [made.pieces.names[i] for i in thin]},
+        "failures": failures,
+        "exempt": made.verdict.exempt,
+        "ok": not failures,
+        "exempt_pieces": made.exempt,
+    }
+    if options.labels:
+        report["labels"] = asdict(made.labels) if made.labels else {}
+    if made.core and made.core.checks:
+        report["core"] = asdict(made.core.facts) | asdict(made.core.checks)
+    if made.unique:
+        report["unique"] = told(made.unique)
+    return report
+
+
+def _layout(layout: Layout) -> Report:
+    """Give the facts of the charts, or of the cells."""
+    facts = dict(layout.atlas.facts)
+    if layout.cells is None:
+        return {"charts": facts}
+    return {"cells": facts | (asdict(layout.cells.facts) if layout.cells.facts else {})}
+
+
+def _least_neck(options: Options) -> float:
+    return options.min_neck + options.clearance  # the gap takes half of it from either side
+
+
+def _checks(made: Made, areas: Floats, area: Floats) -> Report:
+    """Give what was measured of finished pieces, and of the surface that they were cut from."""
+    options, locks, on_surface, mesh = made.options, made.locks, made.on_surface, made.layout.atlas.mesh
     gap = on_surface and outer_gap(
         on_surface.cut.V, on_surface.cut.F, on_surface.piece_of_face, options.clearance
     )
-    least_neck = options.min_neck + options.clearance  # the gap takes half of it from either side
-    checks = {
-        **verdict.checks,
+    return {
+        **made.verdict.checks,
         "gap_outer_mm": gap,
         "area_error": area_error(areas, face_areas(mesh.V, mesh.F)),
-        "discarded_volume_share": solid_facts["discarded_volume_share"],
+        "discarded_volume_share": made.discarded_volume_share,
         "interlocked_borders": locks.interlocked_borders(options.clearance),
         "interlocked_length": locks.interlocked_length(options.clearance),
         "head_neck": _head_neck(locks),
-        "thin_necks": int((locks.neck < least_neck).sum()),
+        "thin_necks": int((locks.neck < _least_neck(options)).sum()),
         "area_cv": area_cv(area),
     }
-    failures = verdict.failures | _broken_as_a_whole(checks)
-    return {
-        "meshjig": meshjig_version(),
-        "kind": "puzzle",
-        "input": scan.facts.as_dict(),
-        "options": options.model_dump(),
-        "charts" if layout.cells is None else "cells": layout.atlas.facts
-        | (asdict(layout.cells.facts) if layout.cells and layout.cells.facts else {}),
-        "cut": asdict(cut.facts) if cut.facts else {},
-        "stitching": told(layout.stitching.facts),
-        "solid": solid_facts,
-        "pieces": _pieces(n, area, pieces, locks, options),
-        "checks": checks,
-        "names": verdict.named | {"thin_necks": [pieces.names[i] for i in locks.thin_necked(least_neck)]},
-        "failures": failures,
-        "exempt": verdict.exempt,
-        "ok": verdict.ok and len(failures) == len(verdict.failures),
-    }
 
 
-def _broken_as_a_whole(checks: dict[str, Any]) -> dict[str, list[str]]:
+def _broken_as_a_whole(checks: Report) -> dict[str, list[str]]:
     """Name the promises about the whole puzzle that are broken; no single piece is to blame."""
     most = {"area_error": MOST_AREA_ERROR, "discarded_volume_share": MOST_DISCARDED}
     return {promise: [] for promise, limit in most.items() if checks[promise] > limit}
 
 
-def _pieces(n: int, area: Floats, solids: Pieces, locks: Interlock, options: Options) -> list[dict[str, Any]]:
+def _pieces(area: Floats, pieces: Pieces, locks: Interlock, options: Options) -> list[Report]:
+    """Give a row for every piece."""
+    n = len(pieces)
     neighbours: list[list[int]] = [[] for _ in range(n)]
     knobs = np.zeros(n, np.int64)
     facing = locks.faces_other(options.clearance, options.min_wall)
@@ -115,7 +160,7 @@ def _pieces(n: int, area: Floats, solids: Pieces, locks: Interlock, options: Opt
         {
             "id": i + 1,
             "area_mm2": float(area[i]),
-            "volume_mm3": mesh_volume(*solids[i]),
+            "volume_mm3": mesh_volume(*pieces[i]),
             "neighbours": sorted(neighbours[i]),
             "knobs": int(knobs[i]),
         }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -14,10 +14,18 @@ from meshjig.options import Options
 from meshjig.solid import enforce_gap
 from meshjig.solid.printable import printable
 
-__all__ = ["judged"]
+__all__ = ["Mended", "judged"]
 
 
-def judged(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pieces, Verdict, dict[str, Any]]:
+@dataclass(frozen=True)
+class Mended:
+    """What was done to pieces that stood too near to each other."""
+
+    dented: list[int] = field(default_factory=list)  # pieces that have changed, by their number
+    discarded_volume_share: float = 0.0  # of all pieces
+
+
+def judged(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pieces, Verdict, Mended]:
     """Judge the pieces of a puzzle, and dent those that are nearer to a neighbour than the gap.
 
     Walls that cross, or sheets of a thin limb that face each other, leave such places where no wall's slab
@@ -33,21 +41,20 @@ def judged(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pie
     -------
     pieces : Pieces
     verdict : Verdict
-    facts : dict
-        "dented": the numbers of pieces that have changed; "discarded": the share of the volume that came off.
+    mended : Mended
     """
     verdict = _verdict(pieces, options, exempt)
     if not verdict.near or options.clearance_method != "solid":
-        return pieces, verdict, {"dented": [], "discarded": 0.0}
+        return pieces, verdict, Mended()
     near = np.array(verdict.near)
     changed = enforce_gap({i: pieces[i] for i in np.unique(near).tolist()}, near, options.clearance)
     if not changed:
-        return pieces, verdict, {"dented": [], "discarded": 0.0}
+        return pieces, verdict, Mended()
     made = [printable(*changed[i][:2]) if i in changed else solid for i, solid in enumerate(pieces)]
     mended = pieces.with_solids(made)
     lost = sum(gone for _, _, gone in changed.values())
     volume = sum(mesh_volume(V, F) for V, F in mended)
-    facts = {"dented": sorted(changed), "discarded": lost / max(lost + volume, 1e-300)}
+    facts = Mended(sorted(changed), lost / max(lost + volume, 1e-300))
     return mended, _verdict(mended, options, exempt), facts
 
 

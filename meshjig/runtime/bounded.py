@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from meshjig.errors import MeshjigError
 from meshjig.runtime.child import Child, allow, idle_child, keep_idle, packed
 
-__all__ = ["Bounded", "Limits", "OutOfBounds", "allow_file"]
+__all__ = ["Bounded", "Limits", "OutOfBounds", "ReadAhead", "allow_file"]
 
 _EVERY = 0.01  # s between two looks at what the child uses
 
@@ -159,3 +159,40 @@ _FAILURES = OSError, EOFError, pickle.UnpicklingError, ValueError
 
 class _Failed:
     """Stands for the answer of a child that has failed."""
+
+
+_READER = "meshjig.scan.reading", "read_file"  # by name: to import it takes as long as to read
+
+
+class ReadAhead:
+    """A mesh file in place of its path: it is being read while what makes a puzzle of it is imported.
+
+    Parameters
+    ----------
+    path : path
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self._answer = Bounded(*_READER, self.path)
+
+    def result(self) -> Any:
+        """Wait for what the file holds.
+
+        Returns
+        -------
+        meshjig.scan.reading.FileMesh
+
+        Raises
+        ------
+        InputError
+            What is wrong with the file.
+        OutOfBounds
+            Its reader crashed, or went beyond the limits of memory and time.
+        """
+        try:
+            return self._answer.result()
+        except OutOfBounds as error:
+            if not error.crashed:
+                raise
+        return Bounded(*_READER, self.path, False).result()  # without the reader that crashes most

@@ -10,8 +10,7 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.runtime.bounded import OutOfBounds
-from meshjig.runtime.read_ahead import ReadAhead
+from meshjig.runtime.bounded import OutOfBounds, ReadAhead
 from meshjig.scan.reading import FileMesh, flattened
 from meshjig.scan.source import Source, Visual
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected, ragged, starts
-from meshjig.mesh.boundary_loops import summed_along
+from meshjig.mesh.chains import summed_along
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.solid.wall_edges import bent
 

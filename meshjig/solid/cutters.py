@@ -8,7 +8,7 @@ import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.booleans import Body, body, sound
-from meshjig.mesh.boundary_loops import follow
+from meshjig.mesh.chains import follow
 from meshjig.mesh.measure import unit
 from meshjig.solid.offsets import Offsets, Strip, mitered
 

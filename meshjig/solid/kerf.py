@@ -11,6 +11,7 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.booleans import share_cores
 from meshjig.mesh.measure import mesh_volume, sums
 from meshjig.mesh.mesh import Mesh
+from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 from meshjig.solid.border_chains import border_chains
 from meshjig.solid.carve_gap import Carved, carve
@@ -21,7 +22,6 @@ from meshjig.solid.walls import most_bend, wall_strip
 
 __all__ = ["KerfFacts", "kerf"]
 
-_WORTH_A_CHILD = 20_000  # faces
 _OWN_SHARE = 0.48  # of the faces; the caller also takes what the child has made
 
 
@@ -84,7 +84,7 @@ def kerf(
         D[at] = wall[at]
     asked = V, F, piece_of_face, D, clearance
     first = _first_half(V, F, piece_of_face)
-    if clearance == 0 or len(F) < _WORTH_A_CHILD or not first.any():
+    if clearance == 0 or len(F) < SOLIDS_WORTH_A_CHILD or not first.any():
         carved, counted = _carved(*asked, np.ones_like(first))
     else:
         child = Background(_carved_beside, *asked, ~first)

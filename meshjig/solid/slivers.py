@@ -3,8 +3,7 @@
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.halfedges import compact, edge_keys, edges
-from meshjig.mesh.incident_faces import around
+from meshjig.mesh.halfedges import compact, edge_keys, edges, incident_faces
 from meshjig.mesh.measure import edge_lengths
 
 __all__ = ["low_faces", "without_degenerate", "without_needles", "without_short_edges"]
@@ -58,7 +57,7 @@ def without_needles(V: Floats, F: Ints, least: float, among: Ints | None = None)
             break
         low = low[np.argsort(height[low], kind="stable")]
         height, longest, look = height[low], longest[low], look[low]
-        rows = around(F, F[look].ravel(), len(V))
+        rows = incident_faces(F, F[look].ravel(), len(V))
         G, e = F[rows], edges(F[rows])
         a, b, c = (F[look, (longest + k) % 3] for k in range(3))
         here = np.searchsorted(rows, look)
@@ -127,7 +126,7 @@ def without_short_edges(V: Floats, F: Ints, least: float, among: Ints) -> tuple[
         look = look[side.min(1, initial=np.inf) < least]
         if not len(look):
             break
-        rows = around(F, F[around(F, F[look].ravel(), len(V))].ravel(), len(V))
+        rows = incident_faces(F, F[incident_faces(F, F[look].ravel(), len(V))].ravel(), len(V))
         rows = rows[left[rows]]
         G, kept = compact(F[rows])
         e = edges(G)

@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.types import UV_GRID
 from meshjig.tiling.unit import Unit, edge_ends
 
 __all__ = [
-    "GRAIN",
+    "UV_GRID",
     "Placing",
     "TileNet",
     "copies_over",
@@ -19,8 +20,6 @@ __all__ = [
     "row_keys",
     "unwrapped",
 ]
-
-GRAIN = 2.0**-18  # mm; coordinates are multiples of it, so that moving them by a period is exact
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ class TileNet:
 
 def rounded(points: Floats) -> Floats:
     """Round coordinates to whole grains."""
-    whole: Floats = np.rint(points / GRAIN) * GRAIN
+    whole: Floats = np.rint(points / UV_GRID) * UV_GRID
     return whole
 
 

@@ -4,17 +4,11 @@ from meshjig.mesh.boundary_loops import (
     border_loop,
     border_loops,
     borders_by_length,
-    chains,
     closed_loops,
-    follow,
     loops_by_length,
-    runs,
     single_loop,
-    summed_along,
 )
 from tests.meshes import cylinder, disc, sphere
-
-Y_AND_LOOP = np.array([[0, 1], [1, 2], [2, 3], [2, 4], [6, 7], [5, 6], [5, 7]])
 
 
 def test_the_border_loop_runs_with_the_chart_on_its_left():
@@ -47,29 +41,6 @@ def test_loops_and_single_loops():
     assert single_loop(np.array([0, 1, 0, 2]), np.array([1, 0, 2, 0])) is None  # pinched
 
 
-def test_runs_end_at_breaks_and_whole_loops_come_last():
-    following = np.array([1, 2, 3, 0, 5, 4])
-    goes_on = np.array([True, False, True, False, True, True])
-    assert [run.tolist() for run in runs(following, goes_on)] == [[2, 3], [0, 1], [4, 5]]
-
-
-def test_chains_end_where_edges_end_or_branch_and_loops_are_one():
-    found = {frozenset(map(tuple, Y_AND_LOOP[chain])) for chain in chains(Y_AND_LOOP, np.zeros(0, int))}
-    assert found == {
-        frozenset({(0, 1), (1, 2)}),
-        frozenset({(2, 3)}),
-        frozenset({(2, 4)}),
-        frozenset({(5, 6), (6, 7), (5, 7)}),
-    }
-
-
-def test_chains_are_stopped_and_run_in_order():
-    line = np.array([[3, 4], [0, 1], [2, 3], [1, 2], [4, 5]])
-    whole, halves = chains(line, np.array([9])), chains(line, np.array([3]))
-    assert [chain.tolist() for chain in whole] in ([[1, 3, 2, 0, 4]], [[4, 0, 2, 3, 1]])
-    assert sorted(sorted(chain.tolist()) for chain in halves) == [[0, 4], [1, 2, 3]]
-
-
 def test_all_border_loops_are_found_with_their_faces_on_the_left():
     _, F = cylinder(600)
     one, other = border_loops(F)
@@ -86,17 +57,3 @@ def test_loops_that_meet_in_a_vertex_are_followed_to_their_ends():
     assert sorted(np.concatenate(loops).tolist()) == list(range(6))
     for loop in loops:
         np.testing.assert_array_equal(end[loop], np.roll(start[loop], -1))
-
-
-def test_a_walk_ends_at_the_end_at_its_beginning_or_at_what_was_met_before():
-    after = [1, 2, -1, 4, 3, 0]
-    seen = set()
-    assert [follow(after, k, seen) for k in (0, 4, 5)] == [[0, 1, 2], [4, 3], [5]]
-    assert follow(after, 1, seen) == []
-
-
-def test_values_are_summed_to_the_end_of_each_chain():
-    after, values = np.array([1, 2, 2, 0, 5, 5]), np.array([3.0, 4.0, 0.0, 1.5, 2.0, 0.0])
-    total, last = summed_along(after, values)
-    assert total.tolist() == [7.0, 4.0, 0.0, 8.5, 2.0, 0.0]
-    assert last.tolist() == [2, 2, 2, 2, 5, 5]

@@ -95,7 +95,7 @@ def test_the_second_reader_reads_what_the_first_can_not(tmp_path):
 
 
 def test_a_reader_that_crashes_leaves_a_sentence(tmp_path, monkeypatch):
-    monkeypatch.setattr("meshjig.runtime.read_ahead._READER", ("os", "abort"))
+    monkeypatch.setattr("meshjig.runtime.bounded._READER", ("os", "abort"))
     with pytest.raises(InputError, match="makes its reader crash"):
         load(written(tmp_path, "ply"))
 

@@ -168,9 +168,9 @@ def test_two_processes_make_what_one_makes(name, monkeypatch):
     label[label == 3] = -1
     D, _ = displacement(V, F, 2.0)
     module = sys.modules["meshjig.solid.kerf"]
-    monkeypatch.setattr(module, "_WORTH_A_CHILD", np.inf)
+    monkeypatch.setattr(module, "SOLIDS_WORTH_A_CHILD", np.inf)
     alone, facts = kerf(V, F, label, D, 0.2)
-    monkeypatch.setattr(module, "_WORTH_A_CHILD", 0)
+    monkeypatch.setattr(module, "SOLIDS_WORTH_A_CHILD", 0)
     together, told = kerf(V, F, label, D, 0.2)
     assert told == facts
     for (X, G), (Y, H) in zip(alone, together, strict=True):

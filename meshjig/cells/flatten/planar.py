@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshjig.mesh.cycles import cycles
+from meshjig.mesh.chains import cycles
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import area_vectors, face_areas, sums, unit
 from meshjig.mesh.types import Bools, Floats, Ints, Mesh

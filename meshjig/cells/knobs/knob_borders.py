@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import ragged, ranks, row_of
-from meshjig.mesh.cycles import cycles
+from meshjig.mesh.chains import cycles
 from meshjig.mesh.halfedges import edge_keys, edges
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints
 

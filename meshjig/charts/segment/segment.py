@@ -16,11 +16,10 @@ from meshjig.errors import OptionError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import components, is_disc
 from meshjig.mesh.mesh import Mesh
+from meshjig.runtime.thresholds import CHARTS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 
-__all__ = ["WORTH_A_CHILD", "chart_options", "get_ready", "segment", "unwrap"]
-
-WORTH_A_CHILD = 4000  # faces; below, a child process takes longer to start than it saves
+__all__ = ["chart_options", "get_ready", "segment", "unwrap"]
 
 
 def segment(
@@ -47,7 +46,9 @@ def segment(
     if acceptance.accepts(np.arange(len(F))):
         return np.zeros(len(F), np.int64)
     mesh, graph = Mesh(V, F), dual_graph(V, F)
-    other = Background(_searched, V, F, n_patches, seed + 1, rounds, conformal, alone=len(F) < WORTH_A_CHILD)
+    other = Background(
+        _searched, V, F, n_patches, seed + 1, rounds, conformal, alone=len(F) < CHARTS_WORTH_A_CHILD
+    )
     try:
         found = _search(mesh, graph, acceptance, n_patches, seed, rounds), other.result()
     except BaseException:

@@ -4,7 +4,7 @@ import numpy as np
 
 from meshjig.charts.chart import Chart
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.boundary_loops import chains
+from meshjig.mesh.chains import edge_chains
 from meshjig.mesh.halfedges import Edges
 from meshjig.mesh.mesh import Mesh
 
@@ -28,7 +28,7 @@ class GluedSeams:
         self._sides, self._proxy_sides = _sides(e, region), _sides(proxy.edges, proxy_region)
         rows = np.flatnonzero(self._sides[:, 0] != self._sides[:, 1])
         border = np.unique(e.E[e.n_faces == 1])
-        self._chains = [rows[chain] for chain in chains(e.E[rows], border)]
+        self._chains = [rows[chain] for chain in edge_chains(e.E[rows], border)]
 
     def cuts(self, is_chosen: Bools, chart: Chart) -> Bools:
         """Tell which edges of the mesh are cut: all between regions but those closed inside a chart, (e,).
@@ -64,7 +64,7 @@ class GluedSeams:
             return []
         run = np.full(len(rows), -1)
         shut = np.flatnonzero(closed[rows])
-        runs = chains(proxy.E[rows[shut]], rows[:0])
+        runs = edge_chains(proxy.E[rows[shut]], rows[:0])
         for number, found in enumerate(runs):
             run[shut[found]] = number
         middle = self._proxy.V[proxy.E[rows]].mean(1)

@@ -22,11 +22,12 @@ from meshjig.mesh.components import is_disc
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas, singular_values
 from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.types import UV_GRID
 
 __all__ = ["FlatBand", "flat_band", "transfer_band"]
 
 
-_UV_STEP, _PERIOD_STEP = 2.0**-18, 2.0**-8  # mm
+_PERIOD_STEP = 2.0**-8  # mm
 
 
 class FlatBand(NamedTuple):
@@ -154,7 +155,7 @@ def _transferred_ring(mesh: Mesh, faces: Ints, proxy: Mesh, flat: FlatBand) -> C
         Y = np.append(W, W[opened.line], axis=0)
         uv = untangle_annulus(X, annulus, transfer_uv(X, Y, opened.corners, opened.uv), period)
     exact = max(1.0, np.rint(period / _PERIOD_STEP)) * _PERIOD_STEP
-    opened = cut_annulus(annulus, np.rint(uv * [exact / period, 1.0] / _UV_STEP) * _UV_STEP, exact)
+    opened = cut_annulus(annulus, np.rint(uv * [exact / period, 1.0] / UV_GRID) * UV_GRID, exact)
     if not is_unflipped(opened.uv, opened.corners) or meets_itself(annulus, opened, exact):
         x, y, z = X.mean(0)
         raise ChartError(

@@ -10,7 +10,8 @@ from meshjig.charts.cuts import cut_faces
 from meshjig.charts.distortion import within_limits
 from meshjig.charts.zip.glue import Fit, fits, glue
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.boundary_loops import border_loop, chains
+from meshjig.mesh.boundary_loops import border_loop
+from meshjig.mesh.chains import edge_chains
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.mesh.measure import edge_lengths, face_areas, singular_values
 
@@ -166,7 +167,7 @@ class Seams:
 
     def _chains(self) -> list[Ints]:
         rows = np.flatnonzero(self._cut)
-        return [rows[chain] for chain in chains(self._e.E[rows], self._rim)]
+        return [rows[chain] for chain in edge_chains(self._e.E[rows], self._rim)]
 
     def _sides(self, rows: Ints) -> tuple[int, int]:
         h = self._half[rows[0]]

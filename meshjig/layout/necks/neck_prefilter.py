@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected, ranks, row_of
-from meshjig.mesh.boundary_loops import summed_along
+from meshjig.mesh.chains import summed_along
 from meshjig.mesh.halfedges import Edges, next_halfedge
 from meshjig.mesh.measure import sums
 
