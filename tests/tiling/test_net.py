@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 import shapely
 
+from meshjig.mesh.types import UV_GRID
 from meshjig.tiling import Placing, squares
 from meshjig.tiling.fit import bent_round
-from meshjig.tiling.net import GRAIN, lay_net
+from meshjig.tiling.net import lay_net
 from meshjig.tiling.template import classic
 from tests.tiling.units import bricks, waves
 
@@ -47,7 +48,7 @@ def test_edges_divide_the_box_into_the_tiles_on_their_sides(name, angle):
 def test_a_net_bent_round_repeats_exactly_after_the_period(name, period):
     for placing in bent_round(UNITS[name], 8.0, period):
         net = lay_net(UNITS[name], placing, np.array([0.0, 0.0, 1.6 * period, 30.0]), 4.0)
-        whole = net.nodes / GRAIN
+        whole = net.nodes / UV_GRID
         np.testing.assert_array_equal(whole, np.rint(whole))
         off = net.nodes - net.nodes[net.first_node]
         assert not off[:, 1].any()
