@@ -8,7 +8,6 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
 
 from meshjig.errors import (
     ChartError,
@@ -62,7 +61,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     """Load a public name where it lives, when it is first used: imports cost a command its start."""
     if name in _HOMES:
         value = globals()[name] = getattr(importlib.import_module(_HOMES[name]), name)
