@@ -6,7 +6,7 @@ import trimesh
 
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
-from meshjig.pipeline.verify import judged
+from meshjig.pipeline.verify import Mended, judged
 
 NAMES = ("one", "other")
 PAIR = np.array([[0, 1]])
@@ -26,7 +26,7 @@ def boxes():
 
 def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxes):
     solids, verdict, facts = judged(boxes, Options(clearance=0.2), [])
-    assert facts == {"dented": [0, 1], "discarded": 0.0}  # nothing has come off
+    assert facts == Mended(dented=[0, 1])  # nothing has come off
     assert verdict.checks["gap_mm"]["min"] >= 0.97 * 0.2
     assert not verdict.near
     assert all(len(V) > len(W) for (V, _), (W, _) in zip(solids, boxes, strict=True))
@@ -35,7 +35,7 @@ def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxe
 def test_pieces_that_keep_the_gap_are_left_as_they_are(boxes):
     solids, verdict, facts = judged(boxes, Options(clearance=0.1), [])
     assert solids is boxes
-    assert facts == {"dented": [], "discarded": 0.0}
+    assert facts == Mended()
     assert "gap_mm" not in verdict.failures
 
 
