@@ -159,9 +159,9 @@ def check(
     Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
     """
     with sentences(verbose, quiet):
-        from meshjig.pipeline.check_folder import rejudge
+        from meshjig.pipeline.check_folder import check_folder
 
-        result = rejudge(paths, flags)
+        result = check_folder(paths, flags)
         shown = result["checks"] | {key: result[key] for key in ("names", "core") if key in result}
         emit(json.dumps(result, indent=2) if as_json else as_lines(shown))
     if not result["ok"]:

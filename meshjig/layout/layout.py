@@ -12,7 +12,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.refinement import Refinement, unrefined
 from meshjig.mesh.types import Atlas, CutMesh, Knobs, Outlines, Stitching
 
-__all__ = ["Layout", "Parts", "affected_pieces", "recut"]
+__all__ = ["Layout", "Parts", "affected_pieces", "cut_again"]
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Parts:
     discarded: float  # share of the area that the gap cut off from its piece
 
 
-def recut(
+def cut_again(
     layout: Layout, chosen: Ints, kept: Ints, second: CutMesh, piece_of_label: Ints
 ) -> tuple[Layout, ComposedCut]:
     """Take a further cut of some faces into a layout.

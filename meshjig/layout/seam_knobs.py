@@ -11,7 +11,7 @@ import numpy as np
 from meshjig.cells import CellMesh, cell_atlas, knob_outlines
 from meshjig.cut import ComposedCut, merge_periodic, overlay
 from meshjig.layout.interlock import Interlock, interlock
-from meshjig.layout.layout import Layout, recut
+from meshjig.layout.layout import Layout, cut_again
 from meshjig.layout.seam_smoothing import smooth_seams
 from meshjig.layout.stitch import region_graph
 from meshjig.mesh.arrays import Bools, Floats, Ints
@@ -75,7 +75,7 @@ def add_seam_knobs(layout: Layout, options: Options, random: float, seed: int) -
         n_knobs = knobs.facts.knobs
         n_segments = len(layout.outlines.segments)
         second = overlay(atlas, knobs.outlines)
-        layout, further = recut(layout, chosen, kept, second, piece_of_cell)
+        layout, further = cut_again(layout, chosen, kept, second, piece_of_cell)
         layout = replace(layout, knobs=_with_more(layout.knobs, knobs.knobs, further, n_segments))
     facts = replace(layout.stitching.facts, seam_borders=len(pairs), seam_knobs=n_knobs)
     return replace(layout, stitching=replace(layout.stitching, facts=facts))

@@ -9,7 +9,7 @@ import numpy as np
 from meshjig.cells.discs import DISC, shapes
 from meshjig.cells.even_borders import Evened, Line, even_borders
 from meshjig.layout.congruent import borders
-from meshjig.layout.layout import Layout, recut
+from meshjig.layout.layout import Layout, cut_again
 from meshjig.mesh.arrays import Bools, Ints
 from meshjig.mesh.halfedges import Edges, compact, edge_keys, next_halfedge
 from meshjig.mesh.types import CutMesh, Mesh
@@ -98,7 +98,7 @@ def _taken_in(layout: Layout, chosen: Ints, made: Evened) -> Layout:
         cut_segment=np.arange(len(cuts)),
         cut_param=np.tile([0.0, 1.0], (len(cuts), 1)),
     )
-    return recut(layout, chosen, kept, second, np.arange(layout.stitching.n_pieces))[0]
+    return cut_again(layout, chosen, kept, second, np.arange(layout.stitching.n_pieces))[0]
 
 
 def _new_borders(cell: Ints, made: Evened) -> Ints:

@@ -11,10 +11,10 @@ from meshjig.check import add_failures, judge, judge_core
 from meshjig.output.files.read_pieces import read_puzzle_files
 from meshjig.output.report import Report, read_expectations, read_missing
 
-__all__ = ["rejudge"]
+__all__ = ["check_folder"]
 
 
-def rejudge(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Report:
+def check_folder(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Report:
     """Judge finished pieces, and the core where there is one, by their files alone.
 
     Parameters

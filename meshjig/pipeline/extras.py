@@ -18,7 +18,7 @@ from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
 from meshjig.solid.printable import all_printable
 
-__all__ = ["Core", "core_of", "finished", "judged_core"]
+__all__ = ["Core", "build_core", "engrave_pieces", "verify_core"]
 
 CORE_WALLS = 2.0  # least walls of the process
 CORE_COLOUR = (0.6, 0.6, 0.6)
@@ -34,7 +34,7 @@ class Core:
     failures: Mapping[str, list[str]] = field(default_factory=dict)  # promises, and the names that break them
 
 
-def finished(
+def engrave_pieces(
     pieces: Pieces, surface: Mesh, sheets: Shell, options: Options
 ) -> tuple[Pieces, LabelFacts | None]:
     """Give pieces their labels, where they are asked for, and make them such that files can hold them.
@@ -65,12 +65,12 @@ def finished(
     return pieces.with_solids(all_printable(solids)), facts
 
 
-def core_of(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
+def build_core(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
     """Make the body on which the puzzle is built up, where it is asked for, in parts that fit the plate.
 
     Parameters
     ----------
-    surface, sheets, options : as for `finished`
+    surface, sheets, options : as for `engrave_pieces`
 
     Raises
     ------
@@ -95,7 +95,7 @@ def core_of(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
     return Core([Piece(f"core_{i + 1}", V, F, CORE_COLOUR) for i, (V, F) in enumerate(sound)], facts)
 
 
-def judged_core(core: Core | None, pieces: Pieces, options: Options, exempt: Sequence[str]) -> Core | None:
+def verify_core(core: Core | None, pieces: Pieces, options: Options, exempt: Sequence[str]) -> Core | None:
     """Judge a core, where there is one, beside the pieces of its puzzle."""
     if core is None:
         return None

@@ -27,11 +27,11 @@ from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.printers import estimate
 from meshjig.output.texture import textures
 from meshjig.pipeline.debug_pictures import StagePictures
-from meshjig.pipeline.extras import core_of, finished, judged_core
+from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
 from meshjig.pipeline.report import Made, assemble_report
-from meshjig.pipeline.verify import judged
+from meshjig.pipeline.verify import verify
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
@@ -105,8 +105,8 @@ def make_puzzle(
             pictures.shell(surface, sheets)
             pieces, kerf_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
-            pieces, labels = finished(pieces, surface, sheets, options)
-            core = core_of(surface, sheets, options)
+            pieces, labels = engrave_pieces(pieces, surface, sheets, options)
+            core = build_core(surface, sheets, options)
     except BaseException:
         beside.cancel()
         raise
@@ -115,8 +115,8 @@ def make_puzzle(
         affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
-        pieces, verdict, mended = judged(replace(pieces, neighbours=neighbours), options, exempt)
-        core = judged_core(core, pieces, options, exempt)
+        pieces, verdict, mended = verify(replace(pieces, neighbours=neighbours), options, exempt)
+        core = verify_core(core, pieces, options, exempt)
         unique = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1] if options.unique else None
         made = Made(
             options=options,

@@ -14,7 +14,7 @@ from meshjig.options import Options
 from meshjig.solid import enforce_gap
 from meshjig.solid.printable import printable
 
-__all__ = ["Mended", "judged"]
+__all__ = ["Mended", "verify"]
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Mended:
     discarded_volume_share: float = 0.0  # of all pieces
 
 
-def judged(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pieces, Verdict, Mended]:
+def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pieces, Verdict, Mended]:
     """Judge the pieces of a puzzle, and dent those that are nearer to a neighbour than the gap.
 
     Walls that cross, or sheets of a thin limb that face each other, leave such places where no wall's slab

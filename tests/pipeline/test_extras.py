@@ -8,7 +8,7 @@ from PIL import Image
 
 from meshjig import Puzzle, make_puzzle
 from meshjig.mesh.measure import mesh_volume
-from meshjig.pipeline.check_folder import rejudge
+from meshjig.pipeline.check_folder import check_folder
 from tests.meshes import sphere
 
 N = 20
@@ -51,10 +51,10 @@ def test_core_is_written_in_parts_that_fit_and_keeps_its_gap(folder, report):
 
 
 def test_files_are_judged_with_their_core(folder):
-    found = rejudge([folder], {})
+    found = check_folder([folder], {})
     assert found["ok"], found["failures"]
     assert found["core"]["gap_mm"] >= 0.95 * 0.3
-    stricter = rejudge([folder], {"clearance": 0.8})
+    stricter = check_folder([folder], {"clearance": 0.8})
     assert any(name.startswith("core_") for name in stricter["failures"]["gap_mm"])
 
 
@@ -83,6 +83,6 @@ def test_what_the_report_lists_and_no_file_holds_is_missing(folder, tmp_path):
     shutil.copytree(folder, copy)
     (copy / "pieces/piece_003.stl").unlink()
     (copy / "core/core_1.stl").unlink()
-    found = rejudge([copy], {})
+    found = check_folder([copy], {})
     assert not found["ok"]
     assert found["failures"]["missing"] == ["core_1", "piece_003"]

@@ -6,7 +6,7 @@ import trimesh
 
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
-from meshjig.pipeline.verify import Mended, judged
+from meshjig.pipeline.verify import Mended, verify
 
 NAMES = ("one", "other")
 PAIR = np.array([[0, 1]])
@@ -25,7 +25,7 @@ def boxes():
 
 
 def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxes):
-    solids, verdict, facts = judged(boxes, Options(clearance=0.2), [])
+    solids, verdict, facts = verify(boxes, Options(clearance=0.2), [])
     assert facts == Mended(dented=[0, 1])  # nothing has come off
     assert verdict.checks["gap_mm"]["min"] >= 0.97 * 0.2
     assert not verdict.near
@@ -33,13 +33,13 @@ def test_pieces_nearer_than_the_gap_are_dented_until_the_verdict_is_content(boxe
 
 
 def test_pieces_that_keep_the_gap_are_left_as_they_are(boxes):
-    solids, verdict, facts = judged(boxes, Options(clearance=0.1), [])
+    solids, verdict, facts = verify(boxes, Options(clearance=0.1), [])
     assert solids is boxes
     assert facts == Mended()
     assert "gap_mm" not in verdict.failures
 
 
 def test_gaps_of_the_plane_are_judged_but_not_mended(boxes):
-    solids, verdict, _ = judged(boxes, Options(clearance=0.2, clearance_method="stretch"), [])
+    solids, verdict, _ = verify(boxes, Options(clearance=0.2, clearance_method="stretch"), [])
     assert solids is boxes
     assert verdict.failures["gap_mm"] == list(NAMES)
