@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import re
 import zipfile
 import zlib
@@ -15,7 +16,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
 
-__all__ = ["open_3mf", "read_3mf_mesh"]
+__all__ = ["mesh_arrays", "open_3mf", "read_3mf_mesh"]
 
 _SMALL = 64_000_000  # bytes; of this size, anything may be packed into a file
 _PACKED = 100  # times as large as the file; text of coordinates becomes at most thirty times larger
@@ -89,21 +90,37 @@ def read_3mf_mesh(path: Path) -> tuple[Floats, Ints]:
     InputError
         As `open_3mf`.
     """
-    import lib3mf
-
     model = open_3mf(path)
     mm = _MM[int(model.GetUnit())]
     objects = model.MergeToModel().GetMeshObjects()
-    V: list[Any] = [np.zeros((0, 3))]
-    F: list[Any] = [np.zeros((0, 3), np.int64)]
+    V = [np.zeros((0, 3))]
+    F = [np.zeros((0, 3), np.int64)]
     n = 0
     while objects.MoveNext():
         mesh = objects.GetCurrentMeshObject()
-        points, triangles = mesh.GetVertices(), mesh.GetTriangleIndices()
-        V.append(np.frombuffer((lib3mf.Position * len(points))(*points), np.float32).reshape(-1, 3))
-        F.append(np.frombuffer((lib3mf.Triangle * len(triangles))(*triangles), np.uint32).reshape(-1, 3) + n)
+        points, triangles = mesh_arrays(mesh)
+        V.append(points)
+        F.append(triangles + n)
         n += len(points)
-    return np.concatenate(V).astype(np.float64) * mm, np.concatenate(F).astype(np.int64)
+    return np.concatenate(V) * mm, np.concatenate(F)
+
+
+def mesh_arrays(mesh: Any) -> tuple[Floats, Ints]:
+    """Take over whole buffers: the binding's own getters make a Python object of every vertex."""
+    import lib3mf
+
+    library = mesh._wrapper.lib
+    V = np.zeros((mesh.GetVertexCount(), 3), np.float32)
+    F = np.zeros((mesh.GetTriangleCount(), 3), np.uint32)
+    for array, kind, fetch in (
+        (V, lib3mf.Position, library.lib3mf_meshobject_getvertices),
+        (F, lib3mf.Triangle, library.lib3mf_meshobject_gettriangleindices),
+    ):
+        if len(array):
+            buffer = (kind * len(array)).from_buffer(array)
+            needed = ctypes.c_uint64(0)
+            mesh._wrapper.checkError(mesh, fetch(mesh._handle, ctypes.c_uint64(len(array)), needed, buffer))
+    return V.astype(np.float64), F.astype(np.int64)
 
 
 def _faces_placed(archive: zipfile.ZipFile) -> tuple[int, int]:

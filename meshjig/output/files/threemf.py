@@ -14,7 +14,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.validated import validated, weld
 from meshjig.output.piece import Piece
 from meshjig.output.texture import Texture
-from meshjig.scan.three_mf import open_3mf
+from meshjig.scan.three_mf import mesh_arrays, open_3mf
 
 __all__ = ["read_3mf", "write_3mf"]
 
@@ -136,7 +136,7 @@ def read_3mf(path: Path) -> list[tuple[str, Floats, Ints]]:
             item = items.GetCurrent()
             for mesh, placed in _meshes(item.GetObjectResource(), _matrix(item.GetObjectTransform())):
                 name = mesh.GetName() or f"{path.stem}_{len(pieces) + 1:03d}"
-                V, F = validated(*_geometry(mesh), f"{name} in {path}")
+                V, F = validated(*mesh_arrays(mesh), f"{name} in {path}")
                 V, F = weld((V @ placed[:3, :3] + placed[3, :3]) * unit, F)
                 pieces.append((name, *validated(V, F, f"{name} in {path}")))
     except lib3mf.ELib3MFException as error:
@@ -161,21 +161,3 @@ def _matrix(transform: Any) -> Floats:
     matrix = np.eye(4)
     matrix[:, :3] = np.array([list(row) for row in transform.Fields])
     return matrix
-
-
-def _geometry(mesh: Any) -> tuple[Floats, Ints]:
-    """Take over whole buffers: the binding's own getters make a Python object of every vertex."""
-    import lib3mf
-
-    library = mesh._wrapper.lib
-    V = np.zeros((mesh.GetVertexCount(), 3), np.float32)
-    F = np.zeros((mesh.GetTriangleCount(), 3), np.uint32)
-    for array, kind, fetch in (
-        (V, lib3mf.Position, library.lib3mf_meshobject_getvertices),
-        (F, lib3mf.Triangle, library.lib3mf_meshobject_gettriangleindices),
-    ):
-        if len(array):
-            buffer = (kind * len(array)).from_buffer(array)
-            needed = ctypes.c_uint64(0)
-            mesh._wrapper.checkError(mesh, fetch(mesh._handle, ctypes.c_uint64(len(array)), needed, buffer))
-    return V.astype(np.float64), F.astype(np.int64)
