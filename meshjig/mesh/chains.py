@@ -160,14 +160,16 @@ def summed_along(after: Ints, values: Numbers) -> tuple[Numbers, Ints]:
 
     Parameters
     ----------
-    after : (k,) int64, what comes after each thing; itself at the end of a chain, nothing in a ring
+    after : (k,) int64, what comes after each thing; itself at the end of a chain
     values : (k,), 0 at the ends
 
     Returns
     -------
-    total : (k,)
+    total : (k,); of no meaning where things follow each other in a ring that has no end
     last : (k,) int64
     """
-    while (after[after] != after).any():  # twice as far each time
+    for _ in range(len(after).bit_length()):  # twice as far each time
+        if (after[after] == after).all():
+            break
         values, after = values + values[after], after[after]
     return values, after

@@ -79,6 +79,13 @@ def test_a_walk_ends_at_the_end_at_its_beginning_or_at_what_was_met_before():
     assert follow(after, 1, seen) == []
 
 
+def test_a_ring_without_an_end_does_not_keep_others_from_theirs():
+    """As where two borders of a piece meet in a vertex: what follows there has two before it."""
+    total, last = summed_along(np.array([1, 1, 3, 2]), np.array([5, 0, 1, 1]))
+    assert (total[0], last[0], last[1]) == (5, 1, 1)
+    assert set(last[2:].tolist()) == {2, 3}
+
+
 def test_values_are_summed_to_the_end_of_each_chain():
     after, values = np.array([1, 2, 2, 0, 5, 5]), np.array([3.0, 4.0, 0.0, 1.5, 2.0, 0.0])
     total, last = summed_along(after, values)
