@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -60,7 +60,7 @@ def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pie
 
 def _verdict(pieces: Pieces, options: Options, exempt: Sequence[str]) -> Verdict:
     return judge(
-        pieces,
+        replace(pieces),  # what is worked out of them for the verdict is not kept
         thickness=options.thickness,
         clearance=options.clearance,
         min_wall=options.min_wall,
