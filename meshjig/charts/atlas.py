@@ -84,7 +84,7 @@ def build_atlas(
     zipped : bool
         Glue the charts of our own segmentation along their seams for as long as they stay good.
     xatlas_options : dict, fields of xatlas.ChartOptions, for "xatlas"
-    source : trimesh.Trimesh, the mesh as it was loaded, for "uv"
+    source : the mesh as it was loaded, with vertices, faces and look.uv, for "uv"
     to_source : (4, 4) float64, takes coordinates of the mesh to those of source; for "uv"
     log : logging.Logger, hears what was done
 

@@ -36,7 +36,7 @@ def file_uv(mesh: Mesh, source: Any, to_source: Floats) -> list[Chart]:
     Parameters
     ----------
     mesh : Mesh
-    source : trimesh.Trimesh, as loaded
+    source : the mesh as loaded, with vertices, faces and look.uv
     to_source : (4, 4) float64, takes the mesh's coordinates to those of source
 
     Returns

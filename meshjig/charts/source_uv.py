@@ -33,7 +33,7 @@ def source_uv(source: Any, to_source: Floats) -> SourceUV:
 
     Parameters
     ----------
-    source : trimesh.Trimesh
+    source : with vertices (n, 3), faces (m, 3) and look.uv (m, 3, 2), such as a loaded mesh
     to_source : (4, 4) float64, takes mesh coordinates to those of source
 
     Raises
@@ -42,17 +42,17 @@ def source_uv(source: Any, to_source: Floats) -> SourceUV:
         There are no UVs, or they are no numbers.
     """
     X, F = np.asarray(source.vertices, np.float64), np.asarray(source.faces, np.int64)
-    uv = getattr(source.visual, "uv", None)
-    if uv is None or np.shape(uv) != (len(X), 2):
+    uv = source.look.uv
+    if uv is None:
         raise ChartError("the file holds no UVs", hint="use --charts auto")
-    uv = np.asarray(uv, np.float64)
-    if not np.isfinite(uv[F]).all():
+    if not np.isfinite(uv).all():
         raise ChartError("the file's UVs are not all numbers", hint="use --charts auto")
     V = np.linalg.solve(to_source, np.c_[X, np.ones(len(X))].T).T[:, :3]
     # files split vertices at creases too: joined again, islands end at seams of the texture only
+    V, uv = V[F.ravel()], uv.reshape(-1, 2)
     place = np.c_[V / max(float(np.ptp(V, axis=0).max()), 1e-300), uv]
     _, first, number = np.unique(np.rint(place / _SAME), axis=0, return_index=True, return_inverse=True)
-    F = number.ravel()[F]
+    F = number.reshape(-1, 3)
     whole = (F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])
     F = F[whole]
     return SourceUV(V[first], F, uv[first], components(F)[1])

@@ -12,6 +12,7 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.mesh import Mesh, concatenate
+from meshjig.scan.source import Source
 
 __all__ = ["Texture", "colour_of_vertex", "textures"]
 
@@ -33,7 +34,7 @@ def textures(
     solids: Sequence[tuple[Floats, Ints]],
     colours: Floats,
     surface: Mesh,
-    source: Any,
+    source: Source,
     to_source: Floats,
     depth: tuple[float, float],
 ) -> list[Texture] | None:
@@ -44,7 +45,7 @@ def textures(
     solids : sequence of (V (n, 3), F (m, 3)), mm
     colours : (p, 3) float64, sRGB, a colour a piece
     surface : Mesh, what the pieces were cut from
-    source : trimesh.Trimesh, with a texture, or with colours of vertices or faces
+    source : Source, which may show a texture or colours
     to_source : (4, 4) float64, takes mm to the coordinates of the source
     depth : two floats, mm; how far from the surface the outer sheet lies, least and most
 
@@ -88,33 +89,19 @@ def colour_of_vertex(F: Ints, texture: Texture) -> Floats:
 
 
 class _Picture:
-    """A source with texture or colours, and where in it things are."""
+    """A source that shows something, and where in it things are."""
 
-    def __init__(self, source: Any, image: Any) -> None:
-        self.V = np.asarray(source.vertices, np.float64)
-        self.F = np.asarray(source.faces, np.int64)
-        self.image = image
-        self.uv = np.zeros((0, 2)) if image is None else np.asarray(source.visual.uv, np.float64)
-        self.rgb = np.zeros((0, 3, 3))
-        if image is None:
-            by_face = source.visual.kind == "face"
-            tint = np.asarray(source.visual.face_colors if by_face else source.visual.vertex_colors)
-            self.rgb = (np.repeat(tint[:, None], 3, 1) if by_face else tint[self.F])[..., :3] / 255.0
+    def __init__(self, source: Source) -> None:
+        self.V, self.F, self.look = source.vertices, source.faces, source.look
         self.island = components(self.F)[1]
 
     @classmethod
-    def of(cls, source: Any) -> _Picture | None:
-        visual = getattr(source, "visual", None)
-        kind = getattr(visual, "kind", None)
-        if visual is not None and kind in ("vertex", "face"):
-            tint = visual.face_colors if kind == "face" else visual.vertex_colors
-            return cls(source, None) if np.ptp(np.asarray(tint)[..., :3], axis=0).any() else None
-        material = getattr(visual, "material", None)
-        image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
-        if kind != "texture" or getattr(visual, "uv", None) is None or image is None:
-            return None
-        made_up = min(image.size) <= 2  # what trimesh shows where a material has no image
-        return None if made_up else cls(source, image.convert("RGB"))
+    def of(cls, source: Source) -> _Picture | None:
+        """Give None where nothing is shown, or one colour only."""
+        rgb = source.look.rgb
+        if source.look.picture is not None or (rgb is not None and np.ptp(rgb, axis=(0, 1)).any()):
+            return cls(source)
+        return None
 
     def under(self, V: Floats, F: Ints, middle: Floats) -> tuple[Floats, Ints]:
         """Give barycentric places (k, 3, 3) of corners, and the faces (k, 3) they are in.
@@ -130,9 +117,10 @@ class _Picture:
         return barycentric(self.V, self.F, face.ravel(), V[F].reshape(-1, 3)).reshape(-1, 3, 3), face
 
     def colours(self, face: Ints, bary: Floats) -> Floats:
-        if self.image is None:
-            return np.clip(np.einsum("kcj,kcjd->kcd", bary, self.rgb[face]), 0, 1)
-        pixels = np.asarray(self.image)
+        pixels = self.look.picture
+        if pixels is None:
+            assert self.look.rgb is not None
+            return np.clip(self._mixed(self.look.rgb / 255.0, face, bary), 0, 1)
         height, width = pixels.shape[:2]
         uv = self._uv(face, bary)
         column = np.clip((uv[..., 0] * width).astype(np.int64), 0, width - 1)
@@ -143,16 +131,16 @@ class _Picture:
         self, colours: Floats, piece: Ints, outer: Bools, face: Ints, bary: Floats
     ) -> tuple[Floats | None, Any]:
         """Put a swatch of every piece's colour below the image: uv (m, 3, 2) of all faces, and the image."""
-        if self.image is None:
+        if self.look.picture is None:
             return None, None
         from PIL import Image
 
-        width, height = self.image.size
+        height, width = self.look.picture.shape[:2]
         a_row = max(width // _SWATCH, 1)
         rows = -(-len(colours) // a_row)
         total = height + rows * _SWATCH
         image = Image.new("RGB", (max(width, _SWATCH), total))
-        image.paste(self.image, (0, 0))
+        image.paste(Image.fromarray(self.look.picture), (0, 0))
         row, column = np.divmod(np.arange(len(colours)), a_row)
         for tint, x, y in zip(colours, column * _SWATCH, height + row * _SWATCH, strict=True):
             image.paste(tuple(np.rint(255 * tint).astype(int).tolist()), (x, y, x + _SWATCH, y + _SWATCH))
@@ -166,9 +154,14 @@ class _Picture:
 
     def _uv(self, face: Ints, bary: Floats) -> Floats:
         """Give places in the image; those of a picture that repeats are brought back into it."""
-        uv = np.einsum("kcj,kcjd->kcd", bary, self.uv[self.F[face]])
-        repeats = self.uv.min() < 0 or self.uv.max() > 1
+        assert self.look.uv is not None
+        uv = self._mixed(self.look.uv, face, bary)
+        repeats = self.look.uv.min() < 0 or self.look.uv.max() > 1
         return np.where((uv < 0) | (uv > 1), uv % 1.0, uv) if repeats else np.clip(uv, 0.0, 1.0)
+
+    def _mixed(self, at_corners: Floats, face: Ints, bary: Floats) -> Floats:
+        """Interpolate what faces have at their corners (m, 3, d), at places in faces, (k, 3, d)."""
+        return np.einsum("kcj,kcjd->kcd", bary, at_corners[face])
 
 
 def _moved(points: Floats, matrix: Floats) -> Floats:

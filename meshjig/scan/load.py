@@ -11,8 +11,9 @@ import numpy as np
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import OutOfBounds, ReadAhead
-from meshjig.scan.reading import FileMesh, flattened
-from meshjig.scan.source import Source, Visual
+from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.reading import FileMesh
+from meshjig.scan.source import Source
 
 __all__ = ["Loaded", "load"]
 
@@ -24,7 +25,7 @@ class Loaded(NamedTuple):
 
     V: Floats  # (n, 3), in the units of the source
     F: Ints  # (m, 3)
-    source: Any  # the Source, or the trimesh.Trimesh given, with UVs, textures and colours
+    source: Source
     file: str | None  # None for what came as arrays, or from trimesh
     reader: str
     notes: list[str]  # what of the file was left out, a sentence each
@@ -58,10 +59,10 @@ def load(source: Any) -> Loaded:
         V, F = _checked(read.source, Path(source.path).name)
         return Loaded(V, F, read.source, source.path, read.reader, read.notes)
     if isinstance(source, tuple | list) and len(source) == 2:
-        mesh: Any = _from_arrays(*source)
+        mesh = _from_arrays(*source)
         return Loaded(*_checked(mesh, "the mesh"), mesh, None, "arrays", [])
     if hasattr(source, "vertices") or hasattr(source, "geometry"):
-        mesh = flattened(source)
+        mesh = from_trimesh(source)
         return Loaded(*_checked(mesh, "the mesh"), mesh, None, "trimesh", [])
     raise InputError(f"a {type(source).__name__} is no mesh", hint="give a path, a trimesh.Trimesh or (V, F)")
 
@@ -96,13 +97,12 @@ def _from_arrays(V: Any, F: Any, name: str = "the mesh") -> Source:
         raise InputError(f"F holds {F.dtype}", hint="faces are indices into V, of an integer type")
     F = F.reshape(-1, 3).astype(np.int64)
     _check_range(F, len(V), name)
-    return Source(V.astype(np.float64), F, Visual(None))
+    return Source(V.astype(np.float64), F)
 
 
-def _checked(mesh: Any, name: str) -> tuple[Floats, Ints]:
-    """The arrays of a trimesh, if they are a surface."""
-    V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64).reshape(-1, 3)
-    F = np.array(getattr(mesh, "faces", np.zeros((0, 3))), np.int64).reshape(-1, 3)
+def _checked(mesh: Source, name: str) -> tuple[Floats, Ints]:
+    """The arrays of a mesh, if they are a surface."""
+    V, F = mesh.vertices, mesh.faces
     if not len(F):
         if len(V):
             raise InputError(

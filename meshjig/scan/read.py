@@ -18,6 +18,7 @@ from meshjig.scan.repair import Repairs, repair
 from meshjig.scan.resurface import ResurfaceFacts, resurfacing_cell
 from meshjig.scan.resurface import resurface as rebuild
 from meshjig.scan.scale import decimate, to_millimetres
+from meshjig.scan.source import Source
 
 __all__ = ["Scan", "ScanFacts", "describe", "read_scan"]
 
@@ -42,6 +43,7 @@ class ScanFacts:
     working_faces: int
     decimated_from: int | None  # faces before
     resurfaced: ResurfaceFacts | None  # None when it was not asked for
+    picture: str  # what the mesh shows: texture, colours
     filled_holes: FilledHoles | None = None
 
     def as_dict(self) -> Mapping[str, Any]:
@@ -57,7 +59,7 @@ class Scan:
     """What came out of a file: the mesh to work on, what was loaded, and what was done to it."""
 
     mesh: Mesh
-    source: Any  # the Source as loaded, or a trimesh.Trimesh; UVs, textures and colours are sampled from it
+    source: Source  # as loaded; UVs, textures and colours are sampled from it
     to_source: Floats  # (4, 4), takes mesh coordinates back to those of source
     facts: ScanFacts
 
@@ -118,6 +120,7 @@ def read_scan(
         working_faces=len(F),
         decimated_from=n_clean if len(F) < n_clean else None,
         resurfaced=resurfaced,
+        picture=loaded.source.look.describe(),
     )
     return Scan(mesh, loaded.source, scaled.to_source, facts)
 

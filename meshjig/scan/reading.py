@@ -15,11 +15,12 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
+from meshjig.scan.from_trimesh import from_trimesh
 from meshjig.scan.scale import import_pymeshlab
-from meshjig.scan.source import Source, Visual, source_of
+from meshjig.scan.source import Source
 from meshjig.scan.three_mf import read_3mf_mesh
 
-__all__ = ["FileMesh", "check_file", "flattened", "load_by_trimesh", "read_file"]
+__all__ = ["FileMesh", "check_file", "load_by_trimesh", "read_file"]
 
 _log = logging.getLogger(__name__)
 
@@ -125,24 +126,10 @@ def load_by_trimesh(path: Path, pictures: PictureReader, **options: Any) -> Any:
             raise resolver.refused
 
 
-def flattened(loaded: Any) -> Any:
-    """Join a scene's meshes, each in its place; None where there are none."""
-    if not hasattr(loaded, "geometry"):
-        return loaded
-    meshes = [mesh for mesh in loaded.dump() if len(getattr(mesh, "faces", ()))]
-    if not meshes:
-        return next((mesh for mesh in loaded.dump() if hasattr(mesh, "vertices")), None)
-    if len(meshes) == 1:
-        return meshes[0]
-    import trimesh
-
-    return trimesh.util.concatenate(meshes)
-
-
 def _by_trimesh(path: Path, pictures: PictureReader) -> Source | None:
     """Read a mesh, perhaps without faces; None where it fails."""
     try:
-        return source_of(flattened(load_by_trimesh(path, pictures)))
+        return from_trimesh(load_by_trimesh(path, pictures))
     except InputError:
         raise
     except Exception as error:  # a parser fed a broken file can raise anything
@@ -163,4 +150,4 @@ def _by_pymeshlab(path: Path) -> Source | None:
 
 
 def _plain(V: Floats, F: Ints) -> Source:
-    return Source(V.astype(np.float64), F.astype(np.int64).reshape(-1, 3), Visual(None))
+    return Source(V.astype(np.float64), F.astype(np.int64).reshape(-1, 3))

@@ -1,36 +1,51 @@
-"""A mesh as it came, with its colours or its texture: what trimesh calls the same, without trimesh."""
+"""A mesh as it came: vertices, triangles, what its faces show, and what its file says of unit and axes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from types import SimpleNamespace
-from typing import Any
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats, Ints
 
-__all__ = ["Source", "Visual", "source_of"]
+__all__ = ["Axis", "Look", "Source", "Unit"]
+
+Axis = Literal["x", "y", "z"]
+Pixels = NDArray[np.uint8]
+
+
+class Unit(NamedTuple):
+    """What a file says of its unit."""
+
+    mm: float
+    name: str  # "metre"
+    binding: bool  # whether it holds whatever the model's extent; else only where that is plausible
 
 
 @dataclass(frozen=True)
-class Visual:
-    """What faces show."""
+class Look:
+    """What the corners of faces show: a place in the picture where there is one, else a colour.
 
-    kind: str | None  # "vertex", "face", "texture"
-    vertex_colors: NDArray[np.uint8] | None = None  # (n, 4)
-    face_colors: NDArray[np.uint8] | None = None  # (m, 4)
-    uv: Floats | None = None  # (n, 2), in widths of the texture
-    pixels: NDArray[np.uint8] | None = None  # (height, width, 3), the texture
+    UVs can be there without a picture. All are None for a mesh that shows nothing.
+    """
 
-    @cached_property
-    def material(self) -> Any:
-        """The texture as a PIL.Image: ``material.image``, which is None where there is none."""
-        from PIL import Image
+    rgb: NDArray[np.uint8] | None = None  # (m, 3, 3), sRGB, a colour a corner
+    uv: Floats | None = None  # (m, 3, 2), in sizes of the picture, v upward; NaN for a face without
+    picture: Pixels | None = None  # (height, width, 3), sRGB
 
-        return SimpleNamespace(image=None if self.pixels is None else Image.fromarray(self.pixels))
+    def describe(self) -> str:
+        """Say in a few words what the mesh brings; "none" where that is nothing."""
+        if self.picture is not None:
+            height, width = self.picture.shape[:2]
+            return f"a texture of {width} x {height} pixels"
+        if self.rgb is None:
+            return "none" if self.uv is None else "none, but UVs"
+        rgb = self.rgb.reshape(-1, 3)
+        if len(rgb) and (rgb == rgb[0]).all():
+            return "one colour: #{:02x}{:02x}{:02x}".format(*rgb[0].tolist())
+        return "a colour a face" if (self.rgb == self.rgb[:, :1]).all() else "a colour a vertex"
 
 
 @dataclass(frozen=True)
@@ -39,27 +54,6 @@ class Source:
 
     vertices: Floats  # (n, 3), in the units of the file
     faces: Ints  # (m, 3)
-    visual: Visual
-
-
-def source_of(mesh: Any) -> Source:
-    """Take over from a trimesh.Trimesh, or a trimesh.PointCloud, what a puzzle can use."""
-    V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64).reshape(-1, 3)
-    F = np.array(getattr(mesh, "faces", np.zeros((0, 3))), np.int64).reshape(-1, 3)
-    visual: Any = getattr(mesh, "visual", None)
-    kind = getattr(visual, "kind", None)
-    if not len(F) or kind not in ("vertex", "face", "texture"):
-        return Source(V, F, Visual(None))
-    if kind == "texture":
-        uv = getattr(visual, "uv", None)
-        flat = None if uv is None else np.array(uv, np.float64)
-        return Source(V, F, Visual(kind, uv=flat, pixels=_pixels(visual)))
-    if kind == "face":
-        return Source(V, F, Visual(kind, face_colors=np.array(visual.face_colors, np.uint8)))
-    return Source(V, F, Visual(kind, vertex_colors=np.array(visual.vertex_colors, np.uint8)))
-
-
-def _pixels(visual: Any) -> NDArray[np.uint8] | None:
-    material = getattr(visual, "material", None)
-    image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
-    return None if image is None else np.asarray(image.convert("RGB"))
+    look: Look = Look()
+    unit: Unit | None = None  # None where the file says nothing
+    up: Axis | None = None  # the axis that points upward; None where the file says nothing

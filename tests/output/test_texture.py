@@ -12,6 +12,8 @@ from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
 from meshjig.output.texture import colour_of_vertex, textures
+from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.source import Source
 from tests.meshes import sphere
 
 TINTS = np.array([[0.2, 0.4, 0.6]])
@@ -35,7 +37,7 @@ def ball(kind):
     solid = np.vstack([V, inner]), np.vstack([F, F[:, ::-1] + len(V)])
     to_source = np.diag([0.1, 0.1, 0.1, 1.0])
     to_source[:3, 3] = 5
-    return Mesh(V, F), source, to_source, solid
+    return Mesh(V, F), from_trimesh(source), to_source, solid
 
 
 @pytest.fixture(params=["texture", "colours"])
@@ -106,12 +108,12 @@ def test_colours_do_not_bleed_between_islands_of_the_picture():
         visual=trimesh.visual.TextureVisuals(uv=uv, image=image),
         process=False,
     )
-    texture = textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
+    texture = textures([solid], TINTS, surface, from_trimesh(source), to_source, (-0.5, 0.5))[0]
     shown = texture.rgb[: len(F)]
     assert np.array_equal(shown[..., 2] == 1, np.repeat(right[:, None], 3, 1))
 
 
 def test_a_plain_mesh_has_no_coat():
     surface, _, to_source, solid = ball("colours")
-    source = trimesh.Trimesh(surface.V, surface.F, process=False)
+    source = Source(surface.V, surface.F)
     assert textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5)) is None

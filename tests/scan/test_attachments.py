@@ -20,7 +20,8 @@ def scan_with(folder, data, name="picture.png"):
     (folder / "m.obj").write_text(OBJ)
     (folder / name).write_bytes(data)
     read = load(folder / "m.obj")
-    return read.source.visual.material.image, read.notes
+    picture = read.source.look.picture
+    return None if picture is None else Image.fromarray(picture), read.notes
 
 
 def encoded(kind, size=(64, 64), colour=GREEN):

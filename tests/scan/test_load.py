@@ -80,7 +80,7 @@ def test_3mf_is_read_in_millimetres_with_its_transforms(tmp_path):
 def test_uvs_stay_with_the_source(tmp_path):
     path = tmp_path / "model.obj"
     path.write_text("v 0 0 0\nv 9 0 0\nv 0 9 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
-    assert load(path).source.visual.uv.tolist() == [[0, 0], [1, 0], [0, 1]]
+    assert load(path).source.look.uv.tolist() == [[[0, 0], [1, 0], [0, 1]]]
 
 
 def test_the_second_reader_reads_what_the_first_can_not(tmp_path):
