@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import coo_matrix, diags
 
-from meshjig.cut.ears import clip_ears
 from meshjig.cut.places import Places
 from meshjig.mesh.arrays import next_in_loop, ragged, row_of
 from meshjig.mesh.chains import Cycles
+from meshjig.mesh.ears import clip_ears
 from meshjig.mesh.types import Bools, Floats, Ints
 
 __all__ = ["Filling", "fill", "moved", "parts_beside", "spread"]

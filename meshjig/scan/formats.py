@@ -11,7 +11,7 @@ from typing import Any
 
 from meshjig.errors import InputError
 
-__all__ = ["FORMATS", "check_whole", "gltf_shortfall", "mentions_faces", "off_shortfall", "ply_shortfall"]
+__all__ = ["FORMATS", "check_whole", "gltf_shortfall", "half_a_face", "off_shortfall", "ply_shortfall"]
 
 
 FORMATS = frozenset({"stl", "obj", "ply", "off", "glb", "gltf", "3mf"})
@@ -27,7 +27,7 @@ _PACKING = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")  # with the
 
 
 def check_whole(path: Path, kind: str) -> None:
-    """Refuse a file that ends too early, as far as the format lets one know.
+    """Refuse a file that ends too early, as far as the format lets one know before it is read.
 
     Parameters
     ----------
@@ -37,45 +37,12 @@ def check_whole(path: Path, kind: str) -> None:
     Raises
     ------
     InputError
-        The file is cut off, or an OBJ file is no text.
+        The file is cut off.
     """
-    if kind == "obj" and b"\0" in path.read_bytes():
-        raise InputError(
-            f"{path} is damaged: OBJ is a format of text, and it holds none", hint="export it again"
-        )
-    look = {
-        "stl": _stl,
-        "glb": _glb,
-        "gltf": gltf_shortfall,
-        "3mf": _3mf,
-        "obj": _obj,
-        "ply": _ply,
-        "off": _off,
-    }
-    missing = look[kind](path)
+    look = {"glb": _glb, "gltf": gltf_shortfall, "3mf": _3mf, "ply": ply_shortfall}
+    missing = look[kind](path) if kind in look else ""
     if missing:
         raise InputError(f"{path} is cut off: {missing}", hint="copy or export it again")
-
-
-def mentions_faces(path: Path, kind: str) -> bool:
-    """Tell whether an OBJ file has face lines, be they any good or not."""
-    return kind == "obj" and re.search(rb"^f\s", path.read_bytes(), re.MULTILINE) is not None
-
-
-def _stl(path: Path) -> str:
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        head = file.read(84)
-        file.seek(max(0, size - 200))
-        tail = file.read()
-    if head.lstrip()[:5].lower() == b"solid" and b"\0" not in head:
-        return "" if b"endsolid" in tail.lower() else "the line 'endsolid' is missing"
-    if len(head) < 84:
-        return f"it has {size} bytes, and the head of an STL file alone has 84"
-    (count,) = struct.unpack("<I", head[80:84])
-    if size < 84 + 50 * count:
-        return f"it announces {count} triangles and holds {(size - 84) // 50}"
-    return ""
 
 
 def _glb(path: Path) -> str:
@@ -92,51 +59,11 @@ def _3mf(path: Path) -> str:
     return "" if zipfile.is_zipfile(path) else "the table at the end of the archive is missing"
 
 
-def _obj(path: Path) -> str:
-    """An OBJ file has no end mark: only a last line that is half a vertex or half a face tells."""
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        file.seek(max(0, size - 4096))
-        tail = file.read()
-    line = tail.rsplit(b"\n", 1)[-1].split(b"#")[0].split()
-    if line and line[0] in (b"v", b"f") and len(line) < 4:
-        return f"its last line, '{b' '.join(line).decode(errors='replace')}', is not whole"
-    return ""
-
-
-def _ply(path: Path) -> str:
-    """Rows of text are counted; of binary PLY, its size is compared."""
-    if shortfall := ply_shortfall(path):
-        return shortfall
-    data = path.read_bytes()
-    head, mark, body = data.partition(b"end_header")
-    if not head.startswith(b"ply"):
-        return ""
-    if not mark:
-        return "its head does not end"
-    if b"format ascii" not in head:
-        return ""
-    announced = sum(int(n) for n in re.findall(rb"^element\s+\S+\s+(\d+)", head, re.MULTILINE))
-    return _too_few(announced, [line for line in body.splitlines() if line.strip()])
-
-
-def _off(path: Path) -> str:
-    lines = [line for line in (x.split(b"#")[0].strip() for x in path.read_bytes().splitlines()) if line]
-    match = re.match(rb"[A-Z4n]*OFF\s*(.*)", lines[0]) if lines else None
-    if not match or b"BINARY" in lines[0]:
-        return ""
-    counts = match[1].split() or (lines.pop(1).split() if len(lines) > 1 else [])
-    if len(counts) < 2 or not all(count.isdigit() for count in counts):
-        return ""
-    return off_shortfall(counts, path.stat().st_size) or _too_few(int(counts[0]) + int(counts[1]), lines[1:])
-
-
-def _too_few(announced: int, rows: list[bytes]) -> str:
-    if len(rows) < announced:
-        return f"it announces {announced} vertices and faces and holds {len(rows)}"
-    last = rows[announced - 1].split() if announced else []
-    if last and last[0].isdigit() and len(last) <= int(last[0]) < 20:
-        return f"its last face, '{b' '.join(last).decode(errors='replace')}', is not whole"
+def half_a_face(line: str) -> str:
+    """Say that the last line of a file of text is no whole list of corners; nothing where it may be."""
+    words = line.split()
+    if words and words[0].isdecimal() and len(words) <= int(words[0][:4]) < 20:
+        return f"its last face, '{' '.join(words)}', is not whole"
     return ""
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import OutOfBounds, ReadAhead
+from meshjig.scan.file_mesh import FileMesh
 from meshjig.scan.from_trimesh import from_trimesh
-from meshjig.scan.reading import FileMesh
 from meshjig.scan.source import Source
 
 __all__ = ["Loaded", "load"]

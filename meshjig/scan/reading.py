@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 import stat
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -14,23 +15,21 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.scan.attachments import PictureReader, resolver_for
-from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
+from meshjig.scan.file_mesh import FileMesh
+from meshjig.scan.formats import check_whole
 from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.kinds import check_kind
+from meshjig.scan.obj import read_obj
+from meshjig.scan.off import read_off
+from meshjig.scan.ply import read_ply
 from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source
+from meshjig.scan.stl import read_stl
 from meshjig.scan.three_mf import read_3mf_mesh
 
 __all__ = ["FileMesh", "check_file", "load_by_trimesh", "read_file"]
 
 _log = logging.getLogger(__name__)
-
-
-class FileMesh(NamedTuple):
-    """What a file holds."""
-
-    source: Source
-    reader: str
-    notes: list[str]  # a sentence for everything that was left out
 
 
 def check_file(path: Path) -> None:
@@ -58,8 +57,8 @@ def check_file(path: Path) -> None:
 def read_file(name: str, by_pymeshlab: bool = True) -> FileMesh:
     """Read a mesh file.
 
-    trimesh reads first; what it can't read, or finds no faces in, is read once more by pymeshlab. 3MF is
-    read by lib3mf.
+    What a reader gives is compared with what the file says that it holds. Where more than a tenth of the
+    faces is missing, pymeshlab reads once more; fewer are named in a note.
 
     Parameters
     ----------
@@ -73,32 +72,50 @@ def read_file(name: str, by_pymeshlab: bool = True) -> FileMesh:
     Raises
     ------
     InputError
-        The file is missing, a folder, of unknown format, empty, damaged or cut off.
+        The file is missing, a folder, of unknown format, of another than its name says, empty, damaged or cut
+        off.
     """
     path = Path(name)
     check_file(path)
     kind = path.suffix.lower().lstrip(".")
-    if kind not in FORMATS:
-        known = ", ".join(sorted(FORMATS))
-        shown = f"{path} is a .{kind} file" if kind else f"{path} has no file extension"
-        raise InputError(f"{shown}, a format that meshjig does not know", hint=f"it reads {known}")
     try:
         allow_file(path)
+        check_kind(path, kind)
         check_whole(path, kind)
+        with np.errstate(all="ignore"):
+            return _read(path, kind, by_pymeshlab and kind in _OF_PYMESHLAB)
     except OSError as error:
         raise InputError(f"{path} can't be opened ({error.strerror})") from None
-    if kind == "3mf":
-        return FileMesh(_plain(*read_3mf_mesh(path)), "lib3mf", [])
-    pictures = PictureReader()
-    first = _by_trimesh(path, pictures)
-    if first is not None and len(first.faces):
-        return FileMesh(first, "trimesh", pictures.notes)
-    if by_pymeshlab and kind not in ("glb", "gltf"):
-        second = _by_pymeshlab(path)
-        if second is not None and (len(second.faces) or not mentions_faces(path, kind)):
-            return FileMesh(second, "pymeshlab", [])
+
+
+def _read(path: Path, kind: str, twice: bool) -> FileMesh:
+    try:
+        first = _READERS[kind](path, PictureReader())
+    except (InputError, OSError):
+        raise
+    except Exception as error:  # a parser fed a broken file can raise anything
+        _log.info("%s can't be read: %r", path, error)
+        first = None
+    if first is not None and len(first.source.faces):
+        lost = first.announced - first.found
+        if not lost:
+            return first
+        if lost <= _SMALL_LOSS * first.announced:
+            note = f"{lost} of {first.announced} faces are left out: they name vertices that are not there,"
+            return first._replace(notes=[*first.notes, f"{note} or places that are no numbers"])
+    announced = first.announced if first is not None else 0
+    second = _by_pymeshlab(path) if twice else None
+    if second is not None and len(second.faces) >= max(1, (1 - _SMALL_LOSS) * announced):
+        notes = ["colours and pictures, if it has any, are left out"]
+        return FileMesh(second, "pymeshlab", notes)
+    if announced and first is not None:
+        raise InputError(
+            f"{path} is damaged: {announced - first.found} of its {announced} faces can't be read, as they"
+            " name vertices that are not there, or places that are no numbers",
+            hint="export it again",
+        )
     if first is not None:
-        return FileMesh(first, "trimesh", pictures.notes)
+        return first
     raise InputError(
         f"{path} can't be read as {kind.upper()}: it is damaged or cut off", hint="export it again"
     )
@@ -126,18 +143,17 @@ def load_by_trimesh(path: Path, pictures: PictureReader, **options: Any) -> Any:
             raise resolver.refused
 
 
-def _by_trimesh(path: Path, pictures: PictureReader) -> Source | None:
-    """Read a mesh, perhaps without faces; None where it fails."""
-    try:
-        return from_trimesh(load_by_trimesh(path, pictures))
-    except InputError:
-        raise
-    except Exception as error:  # a parser fed a broken file can raise anything
-        _log.info("trimesh can't read %s: %r", path, error)
-        return None
+def _by_trimesh(path: Path, pictures: PictureReader) -> FileMesh:
+    """Read a mesh, perhaps without faces."""
+    return FileMesh(from_trimesh(load_by_trimesh(path, pictures)), "trimesh", pictures.notes)
+
+
+def _read_3mf(path: Path, pictures: PictureReader) -> FileMesh:
+    return FileMesh(_plain(*read_3mf_mesh(path)), "lib3mf", [])
 
 
 def _by_pymeshlab(path: Path) -> Source | None:
+    """Read a mesh; None where that fails."""
     pymeshlab = import_pymeshlab()
     meshes = pymeshlab.MeshSet(verbose=False)
     try:
@@ -151,3 +167,16 @@ def _by_pymeshlab(path: Path) -> Source | None:
 
 def _plain(V: Floats, F: Ints) -> Source:
     return Source(V.astype(np.float64), F.astype(np.int64).reshape(-1, 3))
+
+
+_READERS: dict[str, Callable[[Path, PictureReader], FileMesh]] = {
+    "obj": read_obj,
+    "stl": read_stl,
+    "ply": read_ply,
+    "off": read_off,
+    "glb": _by_trimesh,
+    "gltf": _by_trimesh,
+    "3mf": _read_3mf,
+}
+_OF_PYMESHLAB = ("obj", "stl", "ply", "off")  # what it is better at than no reader
+_SMALL_LOSS = 0.1  # of the faces: what a note is enough for

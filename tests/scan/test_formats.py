@@ -125,9 +125,9 @@ def test_a_pipe_among_the_files_that_a_mesh_names_is_refused(tmp_path, kind):
         path.write_text("mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     elif kind == "ply":
         text = PLY.format(kind="ascii", n=3).replace(
-            "element face 7", "comment TextureFile pipe\nelement face 1"
+            "element face 7", "property float s\nproperty float t\ncomment TextureFile pipe\nelement face 1"
         )
-        path.write_text(text + CORNER + "3 0 1 2\n")
+        path.write_text(text + CORNER.replace("\n", " 0 0\n") + "3 0 1 2\n")
     else:
         header = json.loads(gltf(bufferView=0)[20:].split(b"BIN")[0][:-4].decode("latin-1").rstrip("\0 "))
         header |= {

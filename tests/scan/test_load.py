@@ -84,11 +84,11 @@ def test_uvs_stay_with_the_source(tmp_path):
 
 
 def test_the_second_reader_reads_what_the_first_can_not(tmp_path):
-    """A PLY file of triangle strips, which trimesh finds no faces in."""
-    path = tmp_path / "strips.ply"
+    """A PLY file of text whose rows go over several lines."""
+    path = tmp_path / "rows.ply"
     head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-    strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-    path.write_text(f"{head}{strips}0 0 0\n9 0 0\n0 9 0\n9 9 1\n4 0 1 2 3\n")
+    faces = "element face 2\nproperty list int int vertex_indices\nend_header\n"
+    path.write_text(f"{head}{faces}0 0\n0\n9 0\n0\n0 9 0\n9 9 1\n3\n0 1 2\n3 1\n3 2\n")
     read = load(path)
     assert read.reader == "pymeshlab"
     assert len(read.F) == 2

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshjig.cut.ears import clip_ears
+from meshjig.mesh.ears import clip_ears
 from meshjig.mesh.measure import face_areas
 
 
