@@ -32,6 +32,12 @@ class OptionKeywords(TypedDict, total=False):
     pieces: int | None
     piece_size: float | None
     size: float | None
+    unit: Literal["mm", "cm", "m", "inch", "auto"] | None
+    keep: int | Literal["largest", "all"] | None
+    drop_below: float | None
+    flat_base: float | Literal["auto"] | None
+    open_base: bool | None
+    up: Literal["x", "y", "z", "auto"] | None
     faces: int | Literal["all"] | None
     thickness: float | None
     clearance: float | None
@@ -85,6 +91,26 @@ class Options(BaseModel):
         None, gt=0, description="edge of a piece, mm; takes the place of pieces"
     )
     size: FiniteFloat | None = Field(None, gt=0, description="largest extent of the model, mm")
+    unit: Literal["mm", "cm", "m", "inch", "auto"] = Field(
+        "auto", description="unit of the file's numbers; auto: what the file says, else what is plausible"
+    )
+    keep: Annotated[int, Field(ge=1)] | Literal["largest", "all"] = Field(
+        "all", description="connected parts to keep, by their area: largest, all, or how many"
+    )
+    drop_below: FiniteFloat | None = Field(
+        None, gt=0, description="cut off what is less than this above the lowest point, mm, along --up"
+    )
+    flat_base: Annotated[FiniteFloat, Field(gt=0)] | Literal["auto"] | None = Field(
+        None,
+        description="as --drop-below, MM or auto (3 % of the height), closed to a stand or refused",
+        json_schema_extra={"alone": "auto"},
+    )
+    open_base: bool = Field(
+        False, description="leave the cut of --drop-below or --flat-base open, as for a lamp"
+    )
+    up: Literal["x", "y", "z", "auto"] = Field(
+        "auto", description="axis that points upward; auto: what the file says, else as the shape suggests"
+    )
     faces: Annotated[int, Field(ge=100)] | Literal["all"] = Field(
         100_000, description="working resolution in faces, or 'all'"
     )
@@ -157,6 +183,10 @@ class Options(BaseModel):
         if not isinstance(given, dict):
             return given
         given = {k: v for k, v in given.items() if v is not None}
+        if isinstance(given.get("flat_base"), bool):
+            given["flat_base"] = "auto" if given["flat_base"] else None
+        if given.get("flat_base") is not None and given.get("drop_below") is not None:
+            raise ValueError("flat-base and drop-below are two cuts at one place: leave out one of them")
         if isinstance(given.get("format"), str):
             given["format"] = tuple(part.strip() for part in given["format"].split(",") if part.strip())
         known = PROCESSES | _own_processes(given.pop("processes", {}))

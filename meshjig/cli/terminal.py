@@ -68,6 +68,7 @@ def sentences(verbose: bool, quiet: bool) -> Iterator[None]:
     level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(message)s")
     logging.getLogger("meshjig").setLevel(level)
+    logging.getLogger("meshjig.told").setLevel(logging.ERROR if quiet else logging.INFO)
     try:
         yield
     except MeshjigError as error:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -11,17 +13,22 @@ import numpy as np
 
 from meshjig.charts import MappedAtlas, build_atlas
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.types import Mesh
+from meshjig.mesh.types import Bools, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
 from meshjig.pipeline.report import meshjig_version
-from meshjig.scan import Scan, read_scan
+from meshjig.pipeline.up import up_axis
+from meshjig.scan import Floor, Preparation, Scan, read_scan
 from meshjig.scan.fill import fill_holes
+from meshjig.scan.notes import open_borders_note
 
 __all__ = ["atlas", "clean_scan", "describe_charts"]
 
+told = logging.getLogger("meshjig.told")  # the command line shows it, unless it is to be quiet
+
 KIND = "set of charts"  # what its folder holds
+LEVEL = 0.01  # of the largest extent: how far off its plane a cut may be after the mesh was simplified
 WIDEST_HOLE = 0.1  # of the largest extent: few and large pieces must not close the rim of a vase
 
 
@@ -86,18 +93,44 @@ def chart(scan: Scan, options: Options) -> MappedAtlas:
 
 
 def clean_scan(mesh: Any, options: Options) -> Scan:
-    """Read a mesh, and close its small holes."""
+    """Read a mesh as the options ask, and close its small holes; say how large it is, and why."""
     scan = read_scan(
         mesh,
         size=options.size,
         faces=options.faces,
         cavities=options.cavities,
         resurface=options.resurface,
+        preparation=preparation(options),
     )
     diameter = _widest_hole(scan.mesh, options) if options.fill_holes is None else options.fill_holes
-    filled = fill_holes(scan.mesh.V, scan.mesh.F, diameter)
-    facts = replace(scan.facts, filled_holes=filled.facts)
+    filled = fill_holes(scan.mesh.V, scan.mesh.F, diameter, _open_base(scan, options))
+    size = " x ".join(f"{x:.4g}" for x in scan.facts.size_mm)
+    told.info(f"size: {size} mm; {scan.facts.units}")
+    notes = [*scan.facts.notes, *open_borders_note(filled.facts)]
+    facts = replace(scan.facts, filled_holes=filled.facts, notes=notes)
     return replace(scan, mesh=Mesh(filled.V, filled.F), facts=facts)
+
+
+def preparation(options: Options) -> Preparation:
+    """Give what the options ask of a scan."""
+    floor = None
+    if options.drop_below is not None or options.flat_base is not None or options.open_base:
+        height = options.drop_below if options.flat_base in (None, "auto") else options.flat_base
+        floor = Floor(
+            height if isinstance(height, float) else None,
+            up=partial(up_axis, options.up),
+            open=options.open_base,
+            stands=options.flat_base is not None,
+        )
+    return Preparation(options.unit, options.keep, floor, options.clearance)
+
+
+def _open_base(scan: Scan, options: Options) -> Bools | None:
+    """Mark the vertices of a base that stays open, (n,)."""
+    if scan.facts.floor is None or not options.open_base:
+        return None
+    level = scan.mesh.V[:, "xyz".index(scan.facts.floor.axis)]
+    return level < level.min() + LEVEL * float(np.ptp(scan.mesh.V, axis=0).max())
 
 
 def _widest_hole(mesh: Mesh, options: Options) -> float:

@@ -14,9 +14,21 @@ from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import face_areas
 from meshjig.scan.manifold import is_clean
 
-__all__ = ["Filled", "FilledHoles", "fill_holes"]
+__all__ = ["Filled", "FilledHoles", "OpenBorder", "fill_holes"]
 
+_RAGGED = 2 * np.pi  # a border may be so many diameters long, twice as long as a circle
+_SAMPLE = 2000  # points of a border that its width is taken from
+_SHOWN = 20  # open borders in the report
 _SCRAP = 4.0  # a component is worth closing when its area is that of so many discs as wide as the hole
+
+
+@dataclass(frozen=True)
+class OpenBorder:
+    """A border that stays open."""
+
+    at: list[float]  # mm, its middle
+    wide_mm: float  # between its farthest points
+    closed_from_mm: float | None  # the least diameter with which it is closed; None where it never is
 
 
 @dataclass(frozen=True)
@@ -27,6 +39,7 @@ class FilledHoles:
     closed: int  # holes
     area_mm2: float  # of the patches
     left: int  # open borders that stay
+    open: list[OpenBorder]  # the widest of those, the widest first
 
 
 class Filled(NamedTuple):
@@ -37,7 +50,14 @@ class Filled(NamedTuple):
     facts: FilledHoles
 
 
-def fill_holes(V: Floats, F: Ints, diameter: float) -> Filled:
+class _Patched(NamedTuple):
+    """A mesh with patches, whose inner vertices are not placed yet."""
+
+    F: Ints  # (m, 3)
+    n: int  # vertices
+
+
+def fill_holes(V: Floats, F: Ints, diameter: float, spared: Bools | None = None) -> Filled:
     """Close every hole up to a diameter by a patch as fine as the mesh around it.
 
     The outer border of a small scrap is no hole: what would only double it is left open.
@@ -47,47 +67,68 @@ def fill_holes(V: Floats, F: Ints, diameter: float) -> Filled:
     V : (n, 3) float64, mm
     F : (m, 3) int64, manifold
     diameter : float, mm, between the farthest points of a hole's border
+    spared : (n,) bool, optional
+        Vertices of borders that are to stay open.
 
     Returns
     -------
     Filled
     """
     loops = sorted(border_loops(F), key=min)
-    facts = FilledHoles(float(diameter), closed=0, area_mm2=0.0, left=len(loops))
-    holes = [loop for loop, small in zip(loops, _are_holes(V, F, loops, diameter), strict=True) if small]
-    if not holes:
+    borders = _measured(V, F, loops)
+    wanted = [spared is None or not bool(spared[loop].all()) for loop in loops]
+    fits = [b.closed_from_mm is not None and b.closed_from_mm <= diameter for b in borders]
+    holes = [loop for loop, w, f in zip(loops, wanted, fits, strict=True) if w and f]
+    made, done = _patched(V, _Patched(F, len(V)), holes)
+    closed = {int(loop.min()) for loop in done}
+    left = [
+        b for b, loop, w in zip(borders, loops, wanted, strict=True) if w and int(loop.min()) not in closed
+    ]
+    left = sorted(left, key=lambda b: -b.wide_mm)[:_SHOWN]
+    facts = FilledHoles(float(diameter), len(done), 0.0, len(loops) - len(done), left)
+    if not done:
         return Filled(V, F, facts)
-    n = len(V)
-    parts = []
-    for hole in holes:
-        patch, n_new = _disc(hole, V, n)
-        parts.append(patch)
-        n += n_new
-    patches = np.concatenate(parts)
-    G = np.concatenate([F, patches])
-    if not is_clean(G, n):
-        return Filled(V, F, facts)
-    W = np.concatenate([V, _smoothly_placed(V, F, patches, n)])
-    left = len(border_loops(G))
-    area = float(face_areas(W, patches).sum())
-    return Filled(W, G, replace(facts, closed=len(loops) - left, area_mm2=area, left=left))
+    patches = made.F[len(F) :]
+    W = np.concatenate([V, _smoothly_placed(V, F, patches, made.n)])
+    return Filled(W, made.F, replace(facts, area_mm2=float(face_areas(W, patches).sum())))
 
 
-def _are_holes(V: Floats, F: Ints, loops: list[Ints], diameter: float) -> Bools:
-    """Tell which loops are holes to be closed, (l,)."""
+def _measured(V: Floats, F: Ints, loops: list[Ints]) -> list[OpenBorder]:
+    """Say where each border is, how wide, and what diameter would close it."""
     from scipy.spatial.distance import pdist
 
     n, component = components(F)
     component_of_vertex = np.zeros(len(V), np.int64)
     component_of_vertex[F] = component[:, None]
     area = np.bincount(component, face_areas(V, F), n)
-    hole = np.zeros(len(loops), bool)
-    for k, loop in enumerate(loops):
-        if np.linalg.norm(V[loop] - V[np.roll(loop, -1)], axis=1).sum() <= np.pi * 2 * diameter:
-            wide = float(pdist(V[loop]).max())
-            around = area[component_of_vertex[loop[0]]]
-            hole[k] = wide <= diameter and around >= _SCRAP * np.pi / 4 * wide**2
-    return hole
+    found = []
+    for loop in loops:
+        P = V[loop]
+        wide = float(pdist(P[:: 1 + len(P) // _SAMPLE]).max(initial=0.0))
+        length = float(np.linalg.norm(P - np.roll(P, -1, axis=0), axis=1).sum())
+        scrap = area[component_of_vertex[loop[0]]] < _SCRAP * np.pi / 4 * wide**2
+        found.append(OpenBorder(P.mean(0).tolist(), wide, None if scrap else max(wide, length / _RAGGED)))
+    return found
+
+
+def _patched(V: Floats, mesh: _Patched, holes: list[Ints]) -> tuple[_Patched, list[Ints]]:
+    """Put a disc behind each hole; give back those whose disc leaves the mesh clean."""
+    if not holes:
+        return mesh, []
+    F, n = [mesh.F], mesh.n
+    for hole in holes:
+        patch, n_new = _disc(hole, V, n)
+        F.append(patch)
+        n += n_new
+    made = _Patched(np.concatenate(F), n)
+    if is_clean(made.F, n):
+        return made, holes
+    if len(holes) == 1:
+        return mesh, []
+    middle = len(holes) // 2
+    mesh, some = _patched(V, mesh, holes[:middle])
+    mesh, others = _patched(V, mesh, holes[middle:])
+    return mesh, some + others
 
 
 def _disc(rim: Ints, V: Floats, n: int) -> tuple[Ints, int]:

@@ -9,7 +9,7 @@ import numpy as np
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import Edges, edges, next_halfedge
-from meshjig.mesh.measure import unit
+from meshjig.scan.sectors import sectors
 
 __all__ = ["ManifoldMesh", "is_clean", "make_manifold"]
 
@@ -52,7 +52,7 @@ def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:
     Parameters
     ----------
     V : (n, 3) float64
-    F : (m, 3) int64, no face with a repeated corner, no two with equal corners
+    F : (m, 3) int64, no face with a repeated corner, no two with equal corners in the same order of turning
 
     Returns
     -------
@@ -76,25 +76,8 @@ def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:
 def _twins(V: Floats, F: Ints, e: Edges) -> Ints:
     """Each half-edge's twin, also where more than two faces meet; itself where there is none."""
     twin = e.twin.copy()
-    h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] > 2)
-    if not len(h):
-        return twin
-    edge = e.edge_of_halfedge[h]
-    a, b = e.E[edge].T
-    axis = unit(V[b] - V[a])
-    across = V[F.ravel()[next_halfedge(next_halfedge(h))]] - V[a]
-    u = unit(np.eye(3)[np.abs(axis).argmin(axis=1)])
-    u = unit(u - np.einsum("ij,ij->i", u, axis)[:, None] * axis)
-    v = np.cross(axis, u)
-    angle = np.arctan2(np.einsum("ij,ij->i", across, v), np.einsum("ij,ij->i", across, u))
-    forward = F.ravel()[h] == a
-    order = np.lexsort([angle, edge])
-    h, edge, forward = h[order], edge[order], forward[order]
-    # a forward face has its material at lower angles, a backward one at higher: they close a wedge
-    start = np.searchsorted(edge, edge)
-    count = np.searchsorted(edge, edge, side="right") - start
-    following = start + (np.arange(len(h)) - start + 1) % count
-    wedge = ~forward & forward[following]
+    h, following, forward = sectors(V, F, e)
+    wedge = ~forward & forward[following]  # the material between a backward face and the forward one after it
     twin[h[wedge]], twin[h[following[wedge]]] = h[following[wedge]], h[wedge]
     return twin
 

@@ -12,12 +12,17 @@ from meshjig.mesh.arrays import Floats
 from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.intersections import self_crossings
 from meshjig.mesh.mesh import Mesh
+from meshjig.scan.coarse import refuse_coarse
 from meshjig.scan.fill import FilledHoles
+from meshjig.scan.floor import FloorFacts
 from meshjig.scan.load import load
+from meshjig.scan.notes import repair_notes
+from meshjig.scan.preparation import Preparation
 from meshjig.scan.repair import Repairs, repair
 from meshjig.scan.resurface import ResurfaceFacts, resurfacing_cell
 from meshjig.scan.resurface import resurface as rebuild
-from meshjig.scan.scale import decimate, to_millimetres
+from meshjig.scan.scale import decimate
+from meshjig.scan.sized import to_size
 from meshjig.scan.source import Source
 
 __all__ = ["Scan", "ScanFacts", "describe", "read_scan"]
@@ -44,6 +49,7 @@ class ScanFacts:
     decimated_from: int | None  # faces before
     resurfaced: ResurfaceFacts | None  # None when it was not asked for
     picture: str  # what the mesh shows: texture, colours
+    floor: FloorFacts | None  # None when none was cut off
     filled_holes: FilledHoles | None = None
 
     def as_dict(self) -> Mapping[str, Any]:
@@ -71,6 +77,7 @@ def read_scan(
     faces: int | Literal["all"] = 100_000,
     cavities: bool = False,
     resurface: bool = False,
+    preparation: Preparation | None = None,
 ) -> Scan:
     """Load, repair, scale and simplify a mesh.
 
@@ -81,6 +88,7 @@ def read_scan(
     faces : int or "all", the working resolution
     cavities : bool, whether shells that lie inside a solid stay
     resurface : bool, whether the outer surface is rebuilt, without crossings; see `resurface`
+    preparation : Preparation, the unit, parts to keep, a floor to cut off
 
     Returns
     -------
@@ -92,8 +100,9 @@ def read_scan(
         The mesh can't be read, or is no surface; the sentence says why.
     """
     loaded = load(source)
+    refuse_coarse(loaded.V, loaded.F, loaded.file or "the mesh")
     V, F, repairs = repair(loaded.V, loaded.F, cavities=cavities)
-    scaled = to_millimetres(V, size)
+    scaled, F, floor, notes = to_size(V, F, loaded.source, size, preparation or Preparation())
     V, resurfaced = scaled.V, None
     if resurface:
         V, F, resurfaced = rebuild(V, F, resurfacing_cell(V, F, faces), cavities=cavities)
@@ -106,7 +115,7 @@ def read_scan(
     facts = ScanFacts(
         file=loaded.file,
         reader=loaded.reader,
-        notes=loaded.notes,
+        notes=[*loaded.notes, *repair_notes(repairs), *notes],
         faces=len(loaded.F),
         components=mesh.n_components,
         borders=n_borders,
@@ -121,6 +130,7 @@ def read_scan(
         decimated_from=n_clean if len(F) < n_clean else None,
         resurfaced=resurfaced,
         picture=loaded.source.look.describe(),
+        floor=floor,
     )
     return Scan(mesh, loaded.source, scaled.to_source, facts)
 

@@ -12,13 +12,17 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.measure import face_areas
+from meshjig.scan.hanging import join_hanging
+from meshjig.scan.loss import loss
 from meshjig.scan.manifold import is_clean, make_manifold
 from meshjig.scan.orient import make_coherent, turn_outward
+from meshjig.scan.walls import double_walls
 from meshjig.scan.weld import drop_doubles, flip_flat, weld
 
-__all__ = ["Repaired", "Repairs", "repair"]
+__all__ = ["Repaired", "Repairs", "loss", "repair"]
 
 _WELD = 1e-7  # of the diagonal; float32 files are this exact
+_HANGING = 1e-6  # of the diagonal; a text file with six digits is this exact
 _FLAT = 1e-7  # of the diagonal: height under which a face counts as flat
 _CRUMB = 1e-3  # of the area: components below it are dropped
 
@@ -32,6 +36,8 @@ class Repairs:
     null_faces: int  # two corners in one place
     duplicate_faces: int
     flat_faces: int  # no area; flipped away
+    hanging_vertices: int  # lay on an edge of the face across, which was split there
+    shared_walls: int  # faces inside, between two bodies; each body has its own now
     reoriented: int  # faces
     non_manifold_edges: int
     non_manifold_vertices: int
@@ -39,6 +45,8 @@ class Repairs:
     dropped_area_share: float
     turned_inside_out: int  # components
     cavities: int  # shells inside a solid
+    lost_faces_share: float  # of the faces as read
+    lost_area_share: float
 
 
 class Repaired(NamedTuple):
@@ -53,7 +61,8 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
     """Make a mesh that every later stage can rely on.
 
     Every edge has one or two faces, every vertex one fan, neighbours agree on their side, closed
-    components face outward, and no vertex is unused. Shape is kept: nothing is filled or smoothed.
+    components face outward, and no vertex is unused. Where bodies share a wall, each is closed by its own.
+    Shape is kept: nothing is filled or smoothed.
 
     Parameters
     ----------
@@ -70,18 +79,21 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
     InputError
         No faces are left, the mesh is a heap of loose crumbs, or the surface has one side only.
     """
-    n_given = len(V)
+    n_given, given = len(V), (V, F)
     diagonal = float(np.linalg.norm(np.ptp(V[F].reshape(-1, 3), axis=0)))
     V, F = _used(V, F)
     unused = n_given - len(V)
     V, F, merged = weld(V, F, _WELD * diagonal)
     F, null, duplicate = drop_doubles(F)
     F, flat = flip_flat(V, F, _FLAT * diagonal)
+    F, hanging = join_hanging(V, F, _HANGING * diagonal)
     V, F = _used(V, F)
     clean = is_clean(F, len(V))
-    turned = crowded_edges = split_vertices = 0
+    turned = crowded_edges = split_vertices = walls = 0
     if not clean:
         F, turned = make_coherent(F, strict=False)
+        F, walls, turned_walls = double_walls(V, F)
+        turned += turned_walls
         V, F, crowded_edges, split_vertices = make_manifold(V, F)
     crumb, n_crumbs, share = _crumbs(V, F)
     if n_crumbs:
@@ -99,12 +111,15 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
             "the mesh is still no clean surface after repair",
             hint="repair it in a mesh editor, such as MeshLab",
         )
+    lost = loss(given, (V, F))
     changes = Repairs(
         unused_vertices=unused,
         merged_vertices=merged,
         null_faces=null,
         duplicate_faces=duplicate,
         flat_faces=flat,
+        hanging_vertices=hanging,
+        shared_walls=walls,
         reoriented=turned,
         non_manifold_edges=crowded_edges,
         non_manifold_vertices=split_vertices,
@@ -112,6 +127,8 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
         dropped_area_share=share,
         turned_inside_out=sides.turned,
         cavities=n_cavities,
+        lost_faces_share=lost.faces,
+        lost_area_share=lost.area,
     )
     return Repaired(V, F, changes)
 

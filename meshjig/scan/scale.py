@@ -1,4 +1,4 @@
-"""How large a mesh is in millimetres, which its file does not say, and how many faces it keeps."""
+"""How large a mesh is in millimetres, which few files say, and how many faces it keeps."""
 
 from __future__ import annotations
 
@@ -11,9 +11,21 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.scan.manifold import is_clean
+from meshjig.scan.preparation import UnitName
 from meshjig.scan.repair import repair
+from meshjig.scan.source import Unit
 
-__all__ = ["ScaleFacts", "Scaled", "decimate", "import_pymeshlab", "to_millimetres"]
+__all__ = [
+    "ScaleFacts",
+    "Scaled",
+    "choose_scale",
+    "decimate",
+    "import_pymeshlab",
+    "in_millimetres",
+    "to_millimetres",
+]
+
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4}  # in mm
 
 
 _PLAUSIBLE = (20.0, 500.0)  # mm; a model of such extent was most likely made in mm
@@ -47,38 +59,65 @@ class Scaled(NamedTuple):
     facts: ScaleFacts
 
 
-def to_millimetres(V: Floats, size: float | None = None) -> Scaled:
+def to_millimetres(
+    V: Floats, size: float | None = None, unit: UnitName = "auto", said: Unit | None = None
+) -> Scaled:
     """Scale a model to its size in mm, and bring it near the origin if it is far away.
 
     Parameters
     ----------
     V : (n, 3) float64, in the units of the source
-    size : float, mm, the largest extent. None: extents of 20 to 500 are taken as mm, and other models
-        are scaled to 150 mm.
+    size : float, mm, the largest extent; it goes before all units
+    unit : "mm", "cm", "m", "inch" or "auto"
+        Of V; "auto": what the file says, where that holds; else extents of 20 to 500 are taken as mm, and
+        other models are scaled to 150 mm.
+    said : Unit, optional
+        What the file says. One that is not binding holds where it gives 20 to 500 mm; elsewhere the model is
+        scaled to 150 mm.
 
     Returns
     -------
     Scaled
     """
+    return in_millimetres(V, *choose_scale(V, size, unit, said))
+
+
+def choose_scale(
+    V: Floats, size: float | None = None, unit: UnitName = "auto", said: Unit | None = None
+) -> tuple[float, str]:
+    """Give the mm of a source's unit, and why it is that; see `to_millimetres`."""
+    extent = float(np.ptp(V, axis=0).max())
+    if size is not None:
+        return size / extent, f"largest extent set to {size:g} mm as asked"
+    if unit != "auto":
+        return UNITS[unit], f"largest extent {extent:.6g} {unit} as asked"
+    if said is not None:
+        words = f"largest extent {extent:.6g} {said.name}, as the file says"
+        if said.binding or _plausible(extent * said.mm):
+            return said.mm, words
+        return _DEFAULT / extent, f"{words}, is unlikely: scaled to {_DEFAULT:g} mm (--unit makes it hold)"
+    if _plausible(extent):
+        return 1.0, f"largest extent {extent:.6g} taken as mm"
+    return _DEFAULT / extent, f"largest extent {extent:.6g} is unlikely in mm: scaled to {_DEFAULT:g} mm"
+
+
+def in_millimetres(V: Floats, scale: float, words: str) -> Scaled:
+    """Scale a model (n, 3) by a factor, bring it near the origin if it is far away, and note why."""
     low, high = V.min(axis=0), V.max(axis=0)
     extent = float((high - low).max())
-    if size is not None:
-        scale, units = size / extent, f"largest extent set to {size:g} mm as asked"
-    elif _PLAUSIBLE[0] * (1 - _FLOAT32) <= extent <= _PLAUSIBLE[1] * (1 + _FLOAT32):
-        scale, units = 1.0, f"largest extent {extent:g} taken as mm"
-    else:
-        scale, units = (
-            _DEFAULT / extent,
-            f"largest extent {extent:g} is unlikely in mm: scaled to {_DEFAULT:g} mm",
-        )
     far = max(np.abs(low).max(), np.abs(high).max()) * scale > max(_FAR, 2 * extent * scale)
     shift = -(low + high) / 2 if far else np.zeros(3)
     to_source = np.eye(4)
     to_source[:3, :3] /= scale
     to_source[:3, 3] = -shift
     moved = (shift * scale).tolist() if far else None
-    facts = ScaleFacts(scale, ((high - low) * scale).tolist(), units, moved)
+    facts = ScaleFacts(scale, ((high - low) * scale).tolist(), words, moved)
     return Scaled((V + shift) * scale, to_source, facts)
+
+
+def _plausible(extent: float) -> bool:
+    """Tell whether a model of some mm is as large as models are."""
+    return _PLAUSIBLE[0] * (1 - _FLOAT32) <= extent <= _PLAUSIBLE[1] * (1 + _FLOAT32)
 
 
 def decimate(V: Floats, F: Ints, faces: int) -> tuple[Floats, Ints]:

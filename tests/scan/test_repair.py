@@ -52,7 +52,7 @@ def assert_clean(V, F):
 
 
 def changed(result):
-    return {name: count for name, count in asdict(result.changes).items() if count}
+    return {name: n for name, n in asdict(result.changes).items() if n and not name.startswith("lost_")}
 
 
 def soup(mesh):

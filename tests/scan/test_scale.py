@@ -5,6 +5,7 @@ import pytest
 
 from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import decimate, read_scan, to_millimetres
+from meshjig.scan.source import Unit
 from tests.meshes import (
     border,
     creased_box,
@@ -40,6 +41,30 @@ def test_the_largest_extent_follows_the_rule_that_is_named(extent, size, result,
     assert np.ptp(scaled.V, axis=0).max() == pytest.approx(result)
     assert scaled.facts.size_mm == pytest.approx(np.ptp(scaled.V, axis=0))
     assert scaled.facts.scale == pytest.approx(result / extent)
+    assert rule in scaled.facts.units
+
+
+METRE, MILLIMETRE = Unit(1000.0, "metre", False), Unit(1.0, "mm", True)
+INCH = Unit(25.4, "inch", True)
+
+
+@pytest.mark.parametrize(
+    ("extent", "size", "unit", "said", "result", "rule"),
+    [
+        (600.0, None, "auto", MILLIMETRE, 600.0, "600 mm, as the file says"),
+        (0.5, None, "auto", INCH, 12.7, "0.5 inch, as the file says"),
+        (0.2, None, "auto", METRE, 200.0, "0.2 metre, as the file says"),
+        (100.0, None, "auto", METRE, 150.0, "100 metre, as the file says, is unlikely: scaled to 150 mm"),
+        (100.0, None, "m", METRE, 1e5, "100 m as asked"),
+        (3.0, None, "inch", None, 76.2, "3 inch as asked"),
+        (3.0, None, "cm", MILLIMETRE, 30.0, "3 cm as asked"),
+        (600.0, None, "mm", None, 600.0, "600 mm as asked"),
+        (600.0, 80.0, "m", MILLIMETRE, 80.0, "set to 80 mm as asked"),
+    ],
+)
+def test_size_goes_before_the_unit_asked_and_that_before_the_files(extent, size, unit, said, result, rule):
+    scaled = to_millimetres(V * extent / np.ptp(V, axis=0).max(), size, unit, said)
+    assert np.ptp(scaled.V, axis=0).max() == pytest.approx(result)
     assert rule in scaled.facts.units
 
 
