@@ -16,6 +16,7 @@ from meshjig.runtime.bounded import allow_file
 from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.formats import FORMATS, check_whole, mentions_faces
 from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.gltf import read_gltf
 from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source
 from meshjig.scan.three_mf import read_3mf_mesh
@@ -90,6 +91,8 @@ def read_file(name: str, by_pymeshlab: bool = True) -> FileMesh:
     if kind == "3mf":
         return FileMesh(_plain(*read_3mf_mesh(path)), "lib3mf", [])
     pictures = PictureReader()
+    if kind in ("glb", "gltf"):
+        return FileMesh(read_gltf(path, pictures)[0], "meshjig", [])
     first = _by_trimesh(path, pictures)
     if first is not None and len(first.faces):
         return FileMesh(first, "trimesh", pictures.notes)

@@ -35,6 +35,11 @@ class Look:
     uv: Floats | None = None  # (m, 3, 2), in sizes of the picture, v upward; NaN for a face without
     picture: Pixels | None = None  # (height, width, 3), sRGB
 
+    def turned(self) -> Look:
+        """Give the same for faces whose corners come in the opposite order."""
+        rgb = None if self.rgb is None else self.rgb[:, ::-1]
+        return Look(rgb, None if self.uv is None else self.uv[:, ::-1], self.picture)
+
     def describe(self) -> str:
         """Say in a few words what the mesh brings; "none" where that is nothing."""
         if self.picture is not None:
