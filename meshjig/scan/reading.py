@@ -19,7 +19,7 @@ from meshjig.scan.from_trimesh import from_trimesh
 from meshjig.scan.gltf import read_gltf
 from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source
-from meshjig.scan.three_mf import read_3mf_mesh
+from meshjig.scan.three_mf import read_3mf_source
 
 __all__ = ["FileMesh", "check_file", "load_by_trimesh", "read_file"]
 
@@ -88,11 +88,13 @@ def read_file(name: str, by_pymeshlab: bool = True) -> FileMesh:
         check_whole(path, kind)
     except OSError as error:
         raise InputError(f"{path} can't be opened ({error.strerror})") from None
-    if kind == "3mf":
-        return FileMesh(_plain(*read_3mf_mesh(path)), "lib3mf", [])
     pictures = PictureReader()
+    if kind == "3mf":
+        source, notes = read_3mf_source(path, pictures)
+        return FileMesh(source, "lib3mf", notes)
     if kind in ("glb", "gltf"):
-        return FileMesh(read_gltf(path, pictures)[0], "meshjig", [])
+        source, notes = read_gltf(path, pictures)
+        return FileMesh(source, "meshjig", notes)
     first = _by_trimesh(path, pictures)
     if first is not None and len(first.faces):
         return FileMesh(first, "trimesh", pictures.notes)

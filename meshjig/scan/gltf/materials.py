@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,11 +13,12 @@ from meshjig.scan.attachments import PictureReader
 from meshjig.scan.gltf.container import Container, Item
 from meshjig.scan.gltf.primitives import Primitive
 from meshjig.scan.source import Look
+from meshjig.scan.wrapping import Wrap, wrapped
 
 __all__ = ["Materials"]
 
 _WHITE = np.ones(3)
-_CLAMP, _MIRROR = 33071, 33648
+_WRAPS: Mapping[Any, Wrap] = {33071: "clamp", 33648: "mirror"}
 _SCREEN = (
     "trimesh",
 )  # programs that write colours as a screen shows them, where the standard has linear ones
@@ -149,11 +151,8 @@ class Materials:
         if texture is not None:
             number = self._file.item("textures", texture["index"]).get("sampler")
             sampler = {} if number is None else self._file.item("samplers", number)
-            for axis, name in enumerate(("wrapS", "wrapT")):
-                if sampler.get(name) == _CLAMP:
-                    at_corners[..., axis] = np.clip(at_corners[..., axis], 0, 1)
-                elif sampler.get(name) == _MIRROR:
-                    at_corners[..., axis] = 1 - np.abs(at_corners[..., axis] % 2 - 1)
+            across, down = (_WRAPS.get(sampler.get(name), "repeat") for name in ("wrapS", "wrapT"))
+            at_corners = wrapped(at_corners, (across, down))
         return at_corners * (1, -1) + (0, 1)
 
     def _screen(self, colour: Floats) -> Pixels:

@@ -84,7 +84,7 @@ class _Scene:
         self._bound(placed)
         found = [part for place in placed for part in self._parts_of(place)]
         if self._other:
-            self._notes.append(f"{self._other} parts of points or lines are left out")
+            self._notes.append(f"left out: {self._other} part{'s' * (self._other > 1)} of points or lines")
         if self._file.items("animations"):
             self._notes.append("the model moves: it was taken in the pose in which it is saved")
         return found or [Source(np.zeros((0, 3)), np.zeros((0, 3), np.int64), Look(), _METRE, "y")]

@@ -48,7 +48,7 @@ def test_points_and_lines_are_left_out_and_named(tmp_path):
     build.scene(build.part(), build.part(F=[0, 1], more={"mode": 1}), build.part(F=[0], more={"mode": 0}))
     source, notes = read(build, tmp_path)
     assert len(source.faces) == 4
-    assert notes == ["2 parts of points or lines are left out"]
+    assert notes == ["left out: 2 parts of points or lines"]
 
 
 def test_each_part_may_be_quantised_in_its_own_way(tmp_path):
