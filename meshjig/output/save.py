@@ -161,7 +161,8 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 
 def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> None:
-    from meshjig.output.files.mesh_files import write_glb, write_obj, write_ply, write_stl
+    from meshjig.output.files.glb import write_glb
+    from meshjig.output.files.mesh_files import write_obj, write_ply, write_stl
 
     formats = set(outputs.formats)
     if {"stl", "ply"} & formats:

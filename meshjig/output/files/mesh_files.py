@@ -1,8 +1,7 @@
-"""Binary STL, written in one go."""
+"""STL, PLY and OBJ, written in one go."""
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -10,15 +9,13 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.piece import Piece
 from meshjig.output.texture import colour_of_vertex
 
-__all__ = ["write_glb", "write_obj", "write_ply", "write_stl"]
+__all__ = ["write_obj", "write_ply", "write_stl"]
 
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 _VERTEX = np.dtype([("place", "<f4", 3), ("colour", "u1", 3)])
 _FACE = np.dtype([("n", "u1"), ("corners", "<i4", 3)])
-
-_METRES = 0.001  # glTF has metres as its unit
 
 
 def write_stl(path: Path, V: Floats, F: Ints, name: str = "") -> None:
@@ -95,7 +92,7 @@ def write_obj(path: Path, pieces: Iterable[Piece]) -> None:
             else:
                 file.write(_rows("v %.9g %.9g %.9g\n", piece.V))
             if piece.texture is not None and piece.texture.uv is not None:
-                picture = piece.texture.image
+                picture = piece.texture.picture
                 uv, corner = np.unique(piece.texture.uv.reshape(-1, 2), axis=0, return_inverse=True)
                 file.write(_rows("vt %.6f %.6f\n", uv))
                 file.write(f"g {name}\nusemtl picture\n".encode())
@@ -108,55 +105,10 @@ def write_obj(path: Path, pieces: Iterable[Piece]) -> None:
                 colours.append("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1".format(name, *piece.colour))
             offset += len(piece.V)
     if picture is not None:
-        picture.save(path.with_suffix(".png"))
+        path.with_suffix(".png").write_bytes(picture.png)
         colours.append(f"newmtl picture\nKd 1 1 1\nillum 1\nmap_Kd {path.with_suffix('.png').name}")
     materials.write_text("\n".join(colours) + "\n", encoding="utf-8")
 
 
 def _rows(pattern: str, rows: np.ndarray) -> bytes:
     return (pattern * len(rows) % tuple(rows.ravel().tolist())).encode()
-
-
-def write_glb(path: Path, pieces: Iterable[Piece]) -> None:
-    """Write pieces as one binary glTF file.
-
-    Parameters
-    ----------
-    path : Path
-    pieces : Piece
-        Lengths in mm become metres, as the format asks.
-    """
-    import trimesh
-
-    scene = trimesh.Scene()
-    pictures: dict[int, Any] = {}
-    for piece in pieces:
-        V, F, visual = _dressed(piece, pictures)
-        mesh = trimesh.Trimesh(V * _METRES, F, process=False, validate=False)
-        mesh.visual = visual
-        scene.add_geometry(mesh, node_name=piece.name, geom_name=piece.name)
-    path.write_bytes(scene.export(file_type="glb"))
-
-
-def _dressed(piece: Piece, pictures: dict[int, Any]) -> tuple[Floats, Ints, Any]:
-    """Give vertices, faces and looks; a vertex comes several times where its faces look different."""
-    from trimesh.visual import ColorVisuals, TextureVisuals
-    from trimesh.visual.material import PBRMaterial
-
-    V, F, texture = piece.V, piece.F, piece.texture
-    if texture is None:
-        colour = (*piece.colour, 1.0)
-        plain = PBRMaterial(name=piece.name, baseColorFactor=colour, metallicFactor=0.0, roughnessFactor=0.8)
-        return V, F, TextureVisuals(material=plain)
-    shown = texture.rgb if texture.uv is None else texture.uv
-    rows = np.column_stack([F.ravel(), shown.reshape(3 * len(F), -1)])
-    _, first, corner = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    V, G = V[F.ravel()[first]], corner.reshape(-1, 3)
-    looks = rows[first, 1:]
-    if texture.uv is None:
-        return V, G, ColorVisuals(vertex_colors=np.rint(255 * looks).astype(np.uint8))
-    if id(texture.image) not in pictures:
-        pictures[id(texture.image)] = PBRMaterial(
-            name="picture", baseColorTexture=texture.image, metallicFactor=0.0, roughnessFactor=0.8
-        )
-    return V, G, TextureVisuals(uv=looks, material=pictures[id(texture.image)])

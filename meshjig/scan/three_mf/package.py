@@ -16,8 +16,9 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
+from meshjig.scan.source import Unit
 
-__all__ = ["mesh_arrays", "open_3mf", "whole_buffer"]
+__all__ = ["matrix_of", "mesh_arrays", "open_3mf", "unit_of", "whole_buffer"]
 
 _SMALL = 64_000_000  # bytes; of this size, anything may be packed into a file
 _PACKED = 100  # times as large as the file; text of coordinates becomes at most thirty times larger
@@ -25,6 +26,16 @@ _FEW_FACES = 2_000_000  # so many may be made of anything
 _DEEPEST = 500  # objects within objects
 _FACES_A_BYTE = 5  # of what is unpacked; more only an object makes that places others again and again
 _A_FACE = 300.0, 5e-6  # bytes and s that reading takes
+
+
+_UNITS = (  # by lib3mf's number
+    Unit(0.001, "micron", binding=True),
+    Unit(1.0, "millimetre", binding=True),
+    Unit(10.0, "centimetre", binding=True),
+    Unit(25.4, "inch", binding=True),
+    Unit(304.8, "foot", binding=True),
+    Unit(1000.0, "metre", binding=True),
+)
 
 
 def open_3mf(path: Path) -> Any:
@@ -75,6 +86,18 @@ def open_3mf(path: Path) -> Any:
         reason = str(error).splitlines()[0]
         raise InputError(f"{path} can't be read as 3MF ({reason})", hint="export it again") from None
     return model
+
+
+def unit_of(model: Any) -> Unit:
+    """Give the unit that a lib3mf.Model states."""
+    return _UNITS[int(model.GetUnit())]
+
+
+def matrix_of(transform: Any) -> Floats:
+    """Give a lib3mf.Transform as a matrix, (4, 4), that multiplies row vectors from the right."""
+    matrix = np.eye(4)
+    matrix[:, :3] = np.array([list(row) for row in transform.Fields])
+    return matrix
 
 
 def mesh_arrays(mesh: Any) -> tuple[Floats, Ints]:

@@ -13,21 +13,12 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.join import join
-from meshjig.scan.source import Look, Source, Unit
-from meshjig.scan.three_mf.package import mesh_arrays, open_3mf
+from meshjig.scan.source import Look, Source
+from meshjig.scan.three_mf.package import matrix_of, mesh_arrays, open_3mf, unit_of
 from meshjig.scan.three_mf.properties import Properties
 from meshjig.scan.three_mf.slicers import Leftout, left_out, mentions_paint
 
 __all__ = ["read_3mf_source"]
-
-_UNITS = (  # by lib3mf's number
-    Unit(0.001, "micron", binding=True),
-    Unit(1.0, "millimetre", binding=True),
-    Unit(10.0, "centimetre", binding=True),
-    Unit(25.4, "inch", binding=True),
-    Unit(304.8, "foot", binding=True),
-    Unit(1000.0, "metre", binding=True),
-)
 
 
 class _Placed(NamedTuple):
@@ -84,7 +75,7 @@ class _Reader:
         self._read: dict[int, Source] = {}
         self._supports = self._helpers = self._others = 0
         self._seen: set[int] = set()
-        self._unit = _UNITS[int(model.GetUnit())]
+        self._unit = unit_of(model)
         pictures.expected = max(sum(1 for _ in _listed(model.GetTexture2Ds())), 1)
 
     def read(self) -> Source:
@@ -107,7 +98,7 @@ class _Reader:
     def _built(self) -> Iterator[_Placed]:
         """Every mesh that is to be built, through components."""
         waiting = [
-            _Placed(item.GetObjectResource(), _matrix(item.GetObjectTransform()), 0)
+            _Placed(item.GetObjectResource(), matrix_of(item.GetObjectTransform()), 0)
             for item in _listed(self._model.GetBuildItems())
         ]
         if not waiting:
@@ -126,7 +117,7 @@ class _Reader:
                 number = thing.GetModelResourceID()
                 for k in reversed(range(thing.GetComponentCount())):
                     part = thing.GetComponent(k)
-                    place = _matrix(part.GetTransform()) @ matrix
+                    place = matrix_of(part.GetTransform()) @ matrix
                     waiting.append(_Placed(part.GetObjectResource(), place, number))
             else:
                 self._others += 1
@@ -184,10 +175,3 @@ class _Reader:
 def _listed(iterator: Any) -> Iterator[Any]:
     while iterator.MoveNext():
         yield iterator.GetCurrent()
-
-
-def _matrix(transform: Any) -> Floats:
-    """A transform as a matrix that multiplies row vectors from the right."""
-    matrix = np.eye(4)
-    matrix[:, :3] = np.array([list(row) for row in transform.Fields])
-    return matrix
