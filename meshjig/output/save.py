@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from meshjig.errors import OptionError
 from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
+from meshjig.output.lost_colours import lost_colours
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
 from meshjig.output.report import Report, write_report
@@ -76,6 +77,7 @@ def save_puzzle(
     unknown = sorted({formats} if isinstance(formats, str) else set(formats) - set(FORMATS))
     if unknown:
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
+    report = _with_notes(report, lost_colours(pieces, formats, outputs.plate is not None))
     seconds = dict(report["timings_s"])
     source = report.get("input", {}).get("file")
     inputs = [source] if source else []
@@ -108,6 +110,14 @@ def save_puzzle(
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written
+
+
+def _with_notes(report: Mapping[str, Any], notes: Sequence[str]) -> Mapping[str, Any]:
+    """A report with more notes, each once."""
+    given = report.get("input", {})
+    known = given.get("notes", [])
+    more = [note for note in notes if note not in known]
+    return {**report, "input": {**given, "notes": [*known, *more]}} if more else report
 
 
 @contextmanager

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.mesh import Mesh, concatenate
 from meshjig.output.scan_picture import Picture, ScanPicture, closest, moved
 from meshjig.scan.source import Source
 
-__all__ = ["Texture", "colour_of_vertex", "textures"]
+__all__ = ["Texture", "carried", "colour_of_vertex", "textures"]
 
+_ONE_COLOUR = 1e-6  # difference of channels, 0 to 1
 _FACING = 0.5  # cosine between a face and the surface under it; less, and it is a wall
 
 
@@ -31,6 +32,13 @@ class Texture:
     def shown(self) -> Floats:
         """What corners show: places in the picture, (m, 3, 2), or colours where there is none, (m, 3, 3)."""
         return self.rgb if self.picture is None or self.uv is None else self.uv
+
+    @property
+    def colour_of_faces(self) -> Floats | None:
+        """The colour of each face, (m, 3); None where faces show more than one, or a picture."""
+        if self.picture is not None or np.ptp(self.rgb, axis=1).max(initial=0.0) > _ONE_COLOUR:
+            return None
+        return self.rgb[:, 0]
 
 
 def textures(
@@ -70,6 +78,28 @@ def textures(
     uv, picture = shown.with_swatches(colours, piece, outer, face, corners)
     parts = np.split(np.arange(len(F)), np.cumsum([len(G) for _, G in solids])[:-1])
     return [Texture(outer[p], rgb[p], None if uv is None else uv[p], picture) for p in parts]
+
+
+def carried(texture: Texture, old: Mesh, new: Mesh) -> Texture:
+    """Give what a mesh shows that lies on another: each face what the face under its middle shows.
+
+    Parameters
+    ----------
+    texture : Texture, of the old mesh
+    old, new : Mesh, mm
+
+    Returns
+    -------
+    Texture, of the new mesh
+    """
+    _, below, _ = closest(new.V[new.F].mean(axis=1), old.V, old.F)
+    bary = barycentric(old.V, old.F, np.repeat(below, 3), new.V[new.F].reshape(-1, 3)).reshape(-1, 3, 3)
+
+    def moved_over(shown: Floats) -> Floats:
+        return np.clip(np.einsum("kcj,kjd->kcd", bary, shown[below]), 0, 1)
+
+    uv = None if texture.uv is None else moved_over(texture.uv)
+    return Texture(texture.outer[below], moved_over(texture.rgb), uv, texture.picture)
 
 
 def colour_of_vertex(F: Ints, texture: Texture) -> Floats:

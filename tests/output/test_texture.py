@@ -12,7 +12,7 @@ from meshjig.output.files.mesh_files import write_obj, write_ply
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
-from meshjig.output.texture import colour_of_vertex, textures
+from meshjig.output.texture import Texture, carried, colour_of_vertex, textures
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.from_trimesh import from_trimesh
 from meshjig.scan.gltf import read_gltf
@@ -157,3 +157,26 @@ def test_a_picture_that_repeats_is_not_smeared_where_it_begins_again():
     texture = textures([solid], TINTS, surface, source, to_source, (-0.5, 0.5))[0]
     found, meant = np.ptp(texture.uv[: len(F), :, 0], axis=1), np.ptp(uv[..., 0], axis=1)
     assert (found <= meant + 1e-9).all()
+
+
+def test_ply_has_the_colours_of_faces_too(tmp_path):
+    _, _, _, (V, F) = ball("colours")
+    rgb = np.repeat(np.random.default_rng(0).integers(0, 255, (len(F), 1, 3)) / 255, 3, axis=1)
+    texture = Texture(np.ones(len(F), bool), rgb)
+    write_ply(tmp_path / "a.ply", Piece("a", V, F, (0, 0, 0), texture=texture))
+    data = (tmp_path / "a.ply").read_bytes()
+    rows = np.frombuffer(data[-16 * len(F) :], [("n", "u1"), ("F", "<i4", 3), ("rgb", "u1", 3)])
+    assert (rows["F"] == F).all()
+    np.testing.assert_array_equal(rows["rgb"], np.rint(255 * rgb[:, 0]))
+    assert len(read_pieces(tmp_path / "a.ply")[0][2]) == len(F)
+
+
+def test_a_mesh_that_lies_on_another_shows_the_same(dressed):
+    _, piece = dressed
+    order = np.random.default_rng(0).permutation(len(piece.F))
+    turned = np.roll(piece.F[order], 1, axis=1)
+    texture = carried(piece.texture, Mesh(piece.V, piece.F), Mesh(piece.V, turned))
+    np.testing.assert_array_equal(texture.outer, piece.texture.outer[order])
+    np.testing.assert_allclose(texture.rgb, np.roll(piece.texture.rgb[order], 1, axis=1), atol=1e-9)
+    if piece.texture.uv is not None:
+        np.testing.assert_allclose(texture.uv, np.roll(piece.texture.uv[order], 1, axis=1), atol=1e-9)

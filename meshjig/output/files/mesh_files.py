@@ -16,6 +16,8 @@ _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 
 _VERTEX = np.dtype([("place", "<f4", 3), ("colour", "u1", 3)])
 _FACE = np.dtype([("n", "u1"), ("corners", "<i4", 3)])
+_TINTED = np.dtype([("n", "u1"), ("corners", "<i4", 3), ("colour", "u1", 3)])
+_CHANNELS = ("red", "green", "blue")
 
 
 def write_stl(path: Path, V: Floats, F: Ints, name: str = "") -> None:
@@ -42,6 +44,8 @@ def write_stl(path: Path, V: Floats, F: Ints, name: str = "") -> None:
 def write_ply(path: Path, piece: Piece) -> None:
     """Write one piece, in mm; its colour, or the scan's picture on its outer side, is in its vertices.
 
+    Where the scan has a colour a face, it is in the faces too.
+
     Parameters
     ----------
     path : Path
@@ -51,17 +55,22 @@ def write_ply(path: Path, piece: Piece) -> None:
     vertices["place"] = piece.V
     rgb = np.array(piece.colour) if piece.texture is None else colour_of_vertex(piece.F, piece.texture)
     vertices["colour"] = np.rint(255 * rgb)
-    faces = np.zeros(len(piece.F), _FACE)
+    tints = None if piece.texture is None else piece.texture.colour_of_faces
+    faces = np.zeros(len(piece.F), _FACE if tints is None else _TINTED)
     faces["n"], faces["corners"] = 3, piece.F
+    if tints is not None:
+        faces["colour"] = np.rint(255 * tints)
+    channels = [f"property uchar {channel}" for channel in _CHANNELS]
     header = [
         "ply",
         "format binary_little_endian 1.0",
         f"comment meshjig {piece.name}, units: mm",
         f"element vertex {len(vertices)}",
         *(f"property float {axis}" for axis in "xyz"),
-        *(f"property uchar {channel}" for channel in ("red", "green", "blue")),
+        *channels,
         f"element face {len(faces)}",
         "property list uchar int vertex_indices",
+        *(channels if tints is not None else ()),
         "end_header",
     ]
     path.write_bytes("\n".join([*header, ""]).encode() + vertices.tobytes() + faces.tobytes())
