@@ -29,7 +29,7 @@ def lost_colours(pieces: Sequence[Piece], formats: Sequence[str], plates: bool) 
         return []
     what = "texture" if textures[0].picture is not None else "colours"
     if "ply" not in formats:
-        return [f"STL has no colours: the {what} of the scan stays behind; add 3mf to --format to keep it"]
+        return [f"STL has no colours: add 3mf to --format to keep the {what} of the scan"]
     if what == "texture":
-        return ["PLY has the texture of the scan as colours of vertices only; add 3mf to --format to keep it"]
+        return ["PLY has the texture of the scan at vertices only: add 3mf to --format to keep all of it"]
     return []

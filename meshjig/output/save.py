@@ -14,6 +14,7 @@ from meshjig.errors import OptionError
 from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
 from meshjig.output.lost_colours import lost_colours
+from meshjig.output.palette import by_palette
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
 from meshjig.output.report import Report, write_report
@@ -188,10 +189,11 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> No
 
         write_3mf(folder / "puzzle.3mf", pieces)
     if "obj" in formats:
-        write_obj(folder / "puzzle.obj", pieces)
+        write_obj(folder / "puzzle.obj", by_palette(pieces))
     if "glb" in formats:
-        write_glb(folder / "puzzle.glb", pieces)
-        write_glb(folder / "exploded.glb", explode_pieces(pieces, outputs.explode))
+        shown = by_palette(pieces)
+        write_glb(folder / "puzzle.glb", shown)
+        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode))
 
 
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:

@@ -30,7 +30,7 @@ def piece(texture):
         (PICTURE, ["stl"], True, None),
         (PICTURE, ["stl", "3mf"], False, None),
         (PICTURE, ["obj"], False, None),
-        (PICTURE, ["stl", "ply"], False, "colours of vertices only"),
+        (PICTURE, ["stl", "ply"], False, "at vertices only"),
         (COLOURS, ["ply"], False, None),
     ],
 )

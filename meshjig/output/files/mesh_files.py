@@ -82,41 +82,49 @@ def write_obj(path: Path, pieces: Iterable[Piece]) -> None:
     Parameters
     ----------
     path : Path
-        The MTL has the same name but for its ending; so has the PNG of a picture. Colours of vertices
-        follow their coordinates, as many readers know it.
+        The MTL has the same name but for its ending; so has the PNG of a picture. Colours of vertices follow
+        their coordinates, as many readers know it; there is no MTL then, whose colours would go before them.
     pieces : Piece
         Coordinates in mm keep nine significant digits: what 32-bit floats hold comes back unchanged.
     """
-    materials = path.with_suffix(".mtl")
-    colours = ["# meshjig"]
+    materials: list[str] = []
     offset = uv_offset = 1
     picture = None
+    library = path.with_suffix(".mtl")
     with path.open("wb") as file:
-        file.write(f"# meshjig, units: mm\nmtllib {materials.name}\n".encode())
+        file.write(b"# meshjig, units: mm\n")
         for piece in pieces:
             name = piece.name.replace(" ", "_")
-            if piece.texture is not None and piece.texture.uv is None:
-                tinted = np.hstack([piece.V, colour_of_vertex(piece.F, piece.texture)])
-                file.write(_rows("v %.9g %.9g %.9g %.4f %.4f %.4f\n", tinted))
+            texture = piece.texture
+            tinted = texture is not None and texture.picture is None
+            if offset == 1 and not tinted:
+                file.write(f"mtllib {library.name}\n".encode())
+            if texture is not None and tinted:
+                rows = np.hstack([piece.V, colour_of_vertex(piece.F, texture)])
+                file.write(_rows("v %.9g %.9g %.9g %.4f %.4f %.4f\n", rows))
             else:
                 file.write(_rows("v %.9g %.9g %.9g\n", piece.V))
-            if piece.texture is not None and piece.texture.uv is not None:
-                picture = piece.texture.picture
-                uv, corner = np.unique(piece.texture.uv.reshape(-1, 2), axis=0, return_inverse=True)
+            if texture is not None and texture.picture is not None:
+                picture = texture.picture
+                uv, corner = np.unique(texture.shown.reshape(-1, 2), axis=0, return_inverse=True)
                 file.write(_rows("vt %.6f %.6f\n", uv))
                 file.write(f"g {name}\nusemtl picture\n".encode())
                 pairs = np.stack([piece.F + offset, corner.reshape(-1, 3) + uv_offset], 2)
                 file.write(_rows("f %d/%d %d/%d %d/%d\n", pairs.reshape(-1, 6)))
                 uv_offset += len(uv)
             else:
-                file.write(f"g {name}\nusemtl {name}\n".encode())
+                file.write(f"g {name}\n".encode() + (b"" if tinted else f"usemtl {name}\n".encode()))
                 file.write(_rows("f %d %d %d\n", piece.F + offset))
-                colours.append("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1".format(name, *piece.colour))
+                if not tinted:
+                    materials.append(
+                        "newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1".format(name, *piece.colour)
+                    )
             offset += len(piece.V)
     if picture is not None:
         path.with_suffix(".png").write_bytes(picture.png)
-        colours.append(f"newmtl picture\nKd 1 1 1\nillum 1\nmap_Kd {path.with_suffix('.png').name}")
-    materials.write_text("\n".join(colours) + "\n", encoding="utf-8")
+        materials.append(f"newmtl picture\nKd 1 1 1\nillum 1\nmap_Kd {path.with_suffix('.png').name}")
+    if materials:
+        library.write_text("\n".join(["# meshjig", *materials]) + "\n", encoding="utf-8")
 
 
 def _rows(pattern: str, rows: np.ndarray) -> bytes:
