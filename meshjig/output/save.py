@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from meshjig.errors import OptionError
 from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
+from meshjig.output.lost_colours import lost_colours
+from meshjig.output.palette import by_palette
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
 from meshjig.output.report import Report, write_report
@@ -76,6 +78,7 @@ def save_puzzle(
     unknown = sorted({formats} if isinstance(formats, str) else set(formats) - set(FORMATS))
     if unknown:
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
+    report = _with_notes(report, lost_colours(pieces, formats, outputs.plate is not None))
     seconds = dict(report["timings_s"])
     source = report.get("input", {}).get("file")
     inputs = [source] if source else []
@@ -108,6 +111,14 @@ def save_puzzle(
         written = {**report, "timings_s": seconds}
         write_report(folder / "report.json", written)
     return written
+
+
+def _with_notes(report: Mapping[str, Any], notes: Sequence[str]) -> Mapping[str, Any]:
+    """A report with more notes, each once."""
+    given = report.get("input", {})
+    known = given.get("notes", [])
+    more = [note for note in notes if note not in known]
+    return {**report, "input": {**given, "notes": [*known, *more]}} if more else report
 
 
 @contextmanager
@@ -161,7 +172,8 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 
 def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> None:
-    from meshjig.output.files.mesh_files import write_glb, write_obj, write_ply, write_stl
+    from meshjig.output.files.glb import write_glb
+    from meshjig.output.files.mesh_files import write_obj, write_ply, write_stl
 
     formats = set(outputs.formats)
     if {"stl", "ply"} & formats:
@@ -177,10 +189,11 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> No
 
         write_3mf(folder / "puzzle.3mf", pieces)
     if "obj" in formats:
-        write_obj(folder / "puzzle.obj", pieces)
+        write_obj(folder / "puzzle.obj", by_palette(pieces))
     if "glb" in formats:
-        write_glb(folder / "puzzle.glb", pieces)
-        write_glb(folder / "exploded.glb", explode_pieces(pieces, outputs.explode))
+        shown = by_palette(pieces)
+        write_glb(folder / "puzzle.glb", shown)
+        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode))
 
 
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:

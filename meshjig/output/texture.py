@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
 from meshjig.mesh.mesh import Mesh, concatenate
+from meshjig.output.scan_picture import Picture, ScanPicture, closest, moved
 from meshjig.scan.source import Source
 
-__all__ = ["Texture", "colour_of_vertex", "textures"]
+__all__ = ["Texture", "carried", "colour_of_vertex", "textures"]
 
+_ONE_COLOUR = 1e-6  # difference of channels, 0 to 1
 _FACING = 0.5  # cosine between a face and the surface under it; less, and it is a wall
-_SWATCH = 8  # pixels a side for a piece's own colour, below the scan's picture
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,19 @@ class Texture:
     outer: Bools  # (m,)
     rgb: Floats  # (m, 3, 3), sRGB at the corners, 0 to 1
     uv: Floats | None = None  # (m, 3, 2), into the image
-    image: Any = None  # PIL.Image, the same for all pieces; holds a swatch of every piece's colour
+    picture: Picture | None = None  # the same for all pieces; holds a swatch of every piece's colour
+
+    @property
+    def shown(self) -> Floats:
+        """What corners show: places in the picture, (m, 3, 2), or colours where there is none, (m, 3, 3)."""
+        return self.rgb if self.picture is None or self.uv is None else self.uv
+
+    @property
+    def colour_of_faces(self) -> Floats | None:
+        """The colour of each face, (m, 3); None where faces show more than one, or a picture."""
+        if self.picture is not None or np.ptp(self.rgb, axis=1).max(initial=0.0) > _ONE_COLOUR:
+            return None
+        return self.rgb[:, 0]
 
 
 def textures(
@@ -53,20 +64,42 @@ def textures(
     -------
     list of Texture, or None where the source has no picture
     """
-    picture = _Picture.of(source)
-    if picture is None:
+    shown = ScanPicture.of(source)
+    if shown is None:
         return None
     V, F, _, piece = concatenate([Mesh(*solid) for solid in solids])
     middle, normal = V[F].mean(1), unit(area_vectors(V, F))
-    distance, below, _ = _closest(middle, surface.V, surface.F)
+    distance, below, _ = closest(middle, surface.V, surface.F)
     facing = np.einsum("ij,ij->i", normal, unit(area_vectors(surface.V, surface.F))[below]) > _FACING
     outer = facing & (distance >= depth[0]) & (distance <= depth[1])
     rgb = np.broadcast_to(colours[piece][:, None], (len(F), 3, 3)).copy()
-    corners, face = picture.under(_moved(V, to_source), F[outer], _moved(middle[outer], to_source))
-    rgb[outer] = picture.colours(face, corners)
-    uv, image = picture.with_swatches(colours, piece, outer, face, corners)
+    corners, face = shown.under(moved(V, to_source), F[outer], moved(middle[outer], to_source))
+    rgb[outer] = shown.colours(face, corners)
+    uv, picture = shown.with_swatches(colours, piece, outer, face, corners)
     parts = np.split(np.arange(len(F)), np.cumsum([len(G) for _, G in solids])[:-1])
-    return [Texture(outer[p], rgb[p], None if uv is None else uv[p], image) for p in parts]
+    return [Texture(outer[p], rgb[p], None if uv is None else uv[p], picture) for p in parts]
+
+
+def carried(texture: Texture, old: Mesh, new: Mesh) -> Texture:
+    """Give what a mesh shows that lies on another: each face what the face under its middle shows.
+
+    Parameters
+    ----------
+    texture : Texture, of the old mesh
+    old, new : Mesh, mm
+
+    Returns
+    -------
+    Texture, of the new mesh
+    """
+    _, below, _ = closest(new.V[new.F].mean(axis=1), old.V, old.F)
+    bary = barycentric(old.V, old.F, np.repeat(below, 3), new.V[new.F].reshape(-1, 3)).reshape(-1, 3, 3)
+
+    def moved_over(shown: Floats) -> Floats:
+        return np.clip(np.einsum("kcj,kjd->kcd", bary, shown[below]), 0, 1)
+
+    uv = None if texture.uv is None else moved_over(texture.uv)
+    return Texture(texture.outer[below], moved_over(texture.rgb), uv, texture.picture)
 
 
 def colour_of_vertex(F: Ints, texture: Texture) -> Floats:
@@ -86,91 +119,3 @@ def colour_of_vertex(F: Ints, texture: Texture) -> Floats:
     total = np.bincount(F.ravel(), weight, n)
     rgb = texture.rgb.reshape(-1, 3)
     return np.stack([np.bincount(F.ravel(), weight * rgb[:, k], n) for k in range(3)], 1) / total[:, None]
-
-
-class _Picture:
-    """A source that shows something, and where in it things are."""
-
-    def __init__(self, source: Source) -> None:
-        self.V, self.F, self.look = source.vertices, source.faces, source.look
-        self.island = components(self.F)[1]
-
-    @classmethod
-    def of(cls, source: Source) -> _Picture | None:
-        """Give None where nothing is shown, or one colour only."""
-        rgb = source.look.rgb
-        if source.look.picture is not None or (rgb is not None and np.ptp(rgb, axis=(0, 1)).any()):
-            return cls(source)
-        return None
-
-    def under(self, V: Floats, F: Ints, middle: Floats) -> tuple[Floats, Ints]:
-        """Give barycentric places (k, 3, 3) of corners, and the faces (k, 3) they are in.
-
-        A corner takes the face nearest to it when that belongs to the same island of the picture as what
-        is under the middle of its face; else its place is extrapolated from there.
-        """
-        _, home, _ = _closest(middle, self.V, self.F)
-        used, corner = np.unique(F, return_inverse=True)
-        _, near, _ = _closest(V[used], self.V, self.F)
-        near = near[corner.reshape(-1, 3)]
-        face = np.where(self.island[near] == self.island[home][:, None], near, home[:, None])
-        return barycentric(self.V, self.F, face.ravel(), V[F].reshape(-1, 3)).reshape(-1, 3, 3), face
-
-    def colours(self, face: Ints, bary: Floats) -> Floats:
-        pixels = self.look.picture
-        if pixels is None:
-            assert self.look.rgb is not None
-            return np.clip(self._mixed(self.look.rgb / 255.0, face, bary), 0, 1)
-        height, width = pixels.shape[:2]
-        uv = self._uv(face, bary)
-        column = np.clip((uv[..., 0] * width).astype(np.int64), 0, width - 1)
-        row = np.clip(((1 - uv[..., 1]) * height).astype(np.int64), 0, height - 1)
-        return pixels[row, column] / 255.0
-
-    def with_swatches(
-        self, colours: Floats, piece: Ints, outer: Bools, face: Ints, bary: Floats
-    ) -> tuple[Floats | None, Any]:
-        """Put a swatch of every piece's colour below the image: uv (m, 3, 2) of all faces, and the image."""
-        if self.look.picture is None:
-            return None, None
-        from PIL import Image
-
-        height, width = self.look.picture.shape[:2]
-        a_row = max(width // _SWATCH, 1)
-        rows = -(-len(colours) // a_row)
-        total = height + rows * _SWATCH
-        image = Image.new("RGB", (max(width, _SWATCH), total))
-        image.paste(Image.fromarray(self.look.picture), (0, 0))
-        row, column = np.divmod(np.arange(len(colours)), a_row)
-        for tint, x, y in zip(colours, column * _SWATCH, height + row * _SWATCH, strict=True):
-            image.paste(tuple(np.rint(255 * tint).astype(int).tolist()), (x, y, x + _SWATCH, y + _SWATCH))
-        middle = (np.stack([column, row], 1) + 0.5) * _SWATCH + [0, height]
-        uv = np.repeat((middle / image.size * [1, -1] + [0, 1])[piece][:, None], 3, 1)
-        own = self._uv(face, bary)
-        own[..., 1] = 1 - (1 - own[..., 1]) * height / total
-        own[..., 0] *= width / image.size[0]
-        uv[outer] = own
-        return uv, image
-
-    def _uv(self, face: Ints, bary: Floats) -> Floats:
-        """Give places in the image; those of a picture that repeats are brought back into it."""
-        assert self.look.uv is not None
-        uv = self._mixed(self.look.uv, face, bary)
-        repeats = self.look.uv.min() < 0 or self.look.uv.max() > 1
-        return np.where((uv < 0) | (uv > 1), uv % 1.0, uv) if repeats else np.clip(uv, 0.0, 1.0)
-
-    def _mixed(self, at_corners: Floats, face: Ints, bary: Floats) -> Floats:
-        """Interpolate what faces have at their corners (m, 3, d), at places in faces, (k, 3, d)."""
-        return np.einsum("kcj,kcjd->kcd", bary, at_corners[face])
-
-
-def _moved(points: Floats, matrix: Floats) -> Floats:
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def _closest(points: Floats, V: Floats, F: Ints) -> tuple[Floats, Ints, Floats]:
-    """The distance to a mesh, the face that is nearest, and the nearest point."""
-    import igl
-
-    square, face, nearest = igl.point_mesh_squared_distance(points, V, F)[:3]
-    return np.sqrt(square), np.asarray(face, np.int64), nearest

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.mesh.arrays import Ints
+from meshjig.scan.attachments import as_rgb
 from meshjig.scan.join import join
 from meshjig.scan.source import Look, Source
 
@@ -56,6 +57,6 @@ def _of_texture(F: Ints, visual: Any) -> Look:
     material = getattr(visual, "material", None)
     image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
     if at_corners is not None and image is not None and min(image.size) > _MADE_UP:
-        return Look(uv=at_corners, picture=np.asarray(image.convert("RGB")))
+        return Look(uv=at_corners, picture=as_rgb(image))
     colour = np.array(getattr(material, "main_color", (255, 255, 255, 255)), np.uint8)[:3]
     return Look(np.broadcast_to(colour, (len(F), 3, 3)).copy(), at_corners)

@@ -17,7 +17,7 @@ from meshjig.runtime.bounded import allow_file
 from meshjig.scan.attachments import PictureReader, resolver_for
 from meshjig.scan.file_mesh import FileMesh
 from meshjig.scan.formats import check_whole
-from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.gltf import read_gltf
 from meshjig.scan.kinds import check_kind
 from meshjig.scan.obj import read_obj
 from meshjig.scan.off import read_off
@@ -25,7 +25,7 @@ from meshjig.scan.ply import read_ply
 from meshjig.scan.scale import import_pymeshlab
 from meshjig.scan.source import Source
 from meshjig.scan.stl import read_stl
-from meshjig.scan.three_mf import read_3mf_mesh
+from meshjig.scan.three_mf import read_3mf_source
 
 __all__ = ["FileMesh", "check_file", "load_by_trimesh", "read_file"]
 
@@ -143,13 +143,14 @@ def load_by_trimesh(path: Path, pictures: PictureReader, **options: Any) -> Any:
             raise resolver.refused
 
 
-def _by_trimesh(path: Path, pictures: PictureReader) -> FileMesh:
-    """Read a mesh, perhaps without faces."""
-    return FileMesh(from_trimesh(load_by_trimesh(path, pictures)), "trimesh", pictures.notes)
+def _read_gltf(path: Path, pictures: PictureReader) -> FileMesh:
+    source, notes = read_gltf(path, pictures)
+    return FileMesh(source, "meshjig", notes)
 
 
 def _read_3mf(path: Path, pictures: PictureReader) -> FileMesh:
-    return FileMesh(_plain(*read_3mf_mesh(path)), "lib3mf", [])
+    source, notes = read_3mf_source(path, pictures)
+    return FileMesh(source, "lib3mf", notes)
 
 
 def _by_pymeshlab(path: Path) -> Source | None:
@@ -174,8 +175,8 @@ _READERS: dict[str, Callable[[Path, PictureReader], FileMesh]] = {
     "stl": read_stl,
     "ply": read_ply,
     "off": read_off,
-    "glb": _by_trimesh,
-    "gltf": _by_trimesh,
+    "glb": _read_gltf,
+    "gltf": _read_gltf,
     "3mf": _read_3mf,
 }
 _OF_PYMESHLAB = ("obj", "stl", "ply", "off")  # what it is better at than no reader

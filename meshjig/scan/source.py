@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints
 
 __all__ = ["Axis", "Look", "Source", "Unit"]
 
@@ -34,6 +34,16 @@ class Look:
     rgb: NDArray[np.uint8] | None = None  # (m, 3, 3), sRGB, a colour a corner
     uv: Floats | None = None  # (m, 3, 2), in sizes of the picture, v upward; NaN for a face without
     picture: Pixels | None = None  # (height, width, 3), sRGB
+
+    def of(self, faces: Bools | Ints) -> Look:
+        """Give what some of the faces show."""
+        rgb = None if self.rgb is None else self.rgb[faces]
+        return Look(rgb, None if self.uv is None else self.uv[faces], self.picture)
+
+    def turned(self) -> Look:
+        """Give the same for faces whose corners come in the opposite order."""
+        rgb = None if self.rgb is None else self.rgb[:, ::-1]
+        return Look(rgb, None if self.uv is None else self.uv[:, ::-1], self.picture)
 
     def describe(self) -> str:
         """Say in a few words what the mesh brings; "none" where that is nothing."""

@@ -84,3 +84,28 @@ def test_the_library_is_as_before_afterwards():
     with PictureReader().instead():
         assert Image.open != before[0]
     assert (Image.open, Image.MAX_IMAGE_PIXELS) == before
+
+
+@pytest.mark.parametrize("mode", ["L", "LA", "P", "RGBA", "I;16", "CMYK", "1"])
+def test_pictures_of_every_mode_become_what_a_screen_shows(mode):
+    grey = np.tile(np.arange(0, 256, 4, dtype=np.uint8), (16, 1))
+    if mode == "I;16":
+        image = Image.fromarray((grey.astype(np.uint16) * 257).astype(np.uint16))
+    elif mode == "RGBA":
+        image = Image.fromarray(np.dstack([grey] * 3 + [255 - grey]))
+    else:
+        image = Image.fromarray(grey).convert("RGB" if mode == "CMYK" else "L").convert(mode)
+    buffer = io.BytesIO()
+    image.save(buffer, "TIFF" if mode == "CMYK" else "PNG")
+    pixels = PictureReader().pixels(buffer.getvalue(), "p")
+    expected = np.asarray(image.convert("L")) if mode == "1" else grey
+    assert pixels.shape == (16, 64, 3)
+    assert np.abs(pixels.astype(int) - expected[..., None]).max() <= 1
+
+
+def test_pictures_share_the_room_there_is():
+    reader = PictureReader()
+    reader.expected = 200
+    pixels = [reader.pixels(encoded("JPEG", (2000, 1000)), f"number {k}") for k in range(4)]
+    assert sum(x.shape[0] * x.shape[1] for x in pixels) <= 4 * 2 * 8192**2 / 200
+    assert reader.notes[0].startswith("the picture number 0 was scaled from 2000 x 1000 to")

@@ -54,7 +54,7 @@ def test_a_scene_is_joined_with_each_part_in_its_place(tmp_path):
     assert np.ptp(read.V, axis=0) == pytest.approx(part.extents + np.array([200, 0, 0]), rel=1e-5)
 
 
-def test_3mf_is_read_in_millimetres_with_its_transforms(tmp_path):
+def test_3mf_is_read_with_its_unit_and_its_transforms(tmp_path):
     import lib3mf
 
     V, F = torus(500)
@@ -74,7 +74,8 @@ def test_3mf_is_read_in_millimetres_with_its_transforms(tmp_path):
     model.QueryWriter("3mf").WriteToFile(str(path))
     read = load(path)
     assert len(read.F) == 2 * len(F)
-    assert np.ptp(read.V, axis=0) == pytest.approx(10 * (np.ptp(V, axis=0) + np.array([150, 0, 0])), rel=1e-5)
+    assert read.source.unit.mm == 10
+    assert np.ptp(read.V, axis=0) == pytest.approx(np.ptp(V, axis=0) + np.array([150, 0, 0]), rel=1e-5)
 
 
 def test_uvs_stay_with_the_source(tmp_path):

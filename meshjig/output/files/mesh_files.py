@@ -1,8 +1,7 @@
-"""Binary STL, written in one go."""
+"""STL, PLY and OBJ, written in one go."""
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -10,15 +9,15 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.output.piece import Piece
 from meshjig.output.texture import colour_of_vertex
 
-__all__ = ["write_glb", "write_obj", "write_ply", "write_stl"]
+__all__ = ["write_obj", "write_ply", "write_stl"]
 
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 _VERTEX = np.dtype([("place", "<f4", 3), ("colour", "u1", 3)])
 _FACE = np.dtype([("n", "u1"), ("corners", "<i4", 3)])
-
-_METRES = 0.001  # glTF has metres as its unit
+_TINTED = np.dtype([("n", "u1"), ("corners", "<i4", 3), ("colour", "u1", 3)])
+_CHANNELS = ("red", "green", "blue")
 
 
 def write_stl(path: Path, V: Floats, F: Ints, name: str = "") -> None:
@@ -45,6 +44,8 @@ def write_stl(path: Path, V: Floats, F: Ints, name: str = "") -> None:
 def write_ply(path: Path, piece: Piece) -> None:
     """Write one piece, in mm; its colour, or the scan's picture on its outer side, is in its vertices.
 
+    Where the scan has a colour a face, it is in the faces too.
+
     Parameters
     ----------
     path : Path
@@ -54,17 +55,22 @@ def write_ply(path: Path, piece: Piece) -> None:
     vertices["place"] = piece.V
     rgb = np.array(piece.colour) if piece.texture is None else colour_of_vertex(piece.F, piece.texture)
     vertices["colour"] = np.rint(255 * rgb)
-    faces = np.zeros(len(piece.F), _FACE)
+    tints = None if piece.texture is None else piece.texture.colour_of_faces
+    faces = np.zeros(len(piece.F), _FACE if tints is None else _TINTED)
     faces["n"], faces["corners"] = 3, piece.F
+    if tints is not None:
+        faces["colour"] = np.rint(255 * tints)
+    channels = [f"property uchar {channel}" for channel in _CHANNELS]
     header = [
         "ply",
         "format binary_little_endian 1.0",
         f"comment meshjig {piece.name}, units: mm",
         f"element vertex {len(vertices)}",
         *(f"property float {axis}" for axis in "xyz"),
-        *(f"property uchar {channel}" for channel in ("red", "green", "blue")),
+        *channels,
         f"element face {len(faces)}",
         "property list uchar int vertex_indices",
+        *(channels if tints is not None else ()),
         "end_header",
     ]
     path.write_bytes("\n".join([*header, ""]).encode() + vertices.tobytes() + faces.tobytes())
@@ -76,87 +82,50 @@ def write_obj(path: Path, pieces: Iterable[Piece]) -> None:
     Parameters
     ----------
     path : Path
-        The MTL has the same name but for its ending; so has the PNG of a picture. Colours of vertices
-        follow their coordinates, as many readers know it.
+        The MTL has the same name but for its ending; so has the PNG of a picture. Colours of vertices follow
+        their coordinates, as many readers know it; there is no MTL then, whose colours would go before them.
     pieces : Piece
         Coordinates in mm keep nine significant digits: what 32-bit floats hold comes back unchanged.
     """
-    materials = path.with_suffix(".mtl")
-    colours = ["# meshjig"]
+    materials: list[str] = []
     offset = uv_offset = 1
     picture = None
+    library = path.with_suffix(".mtl")
     with path.open("wb") as file:
-        file.write(f"# meshjig, units: mm\nmtllib {materials.name}\n".encode())
+        file.write(b"# meshjig, units: mm\n")
         for piece in pieces:
             name = piece.name.replace(" ", "_")
-            if piece.texture is not None and piece.texture.uv is None:
-                tinted = np.hstack([piece.V, colour_of_vertex(piece.F, piece.texture)])
-                file.write(_rows("v %.9g %.9g %.9g %.4f %.4f %.4f\n", tinted))
+            texture = piece.texture
+            tinted = texture is not None and texture.picture is None
+            if offset == 1 and not tinted:
+                file.write(f"mtllib {library.name}\n".encode())
+            if texture is not None and tinted:
+                rows = np.hstack([piece.V, colour_of_vertex(piece.F, texture)])
+                file.write(_rows("v %.9g %.9g %.9g %.4f %.4f %.4f\n", rows))
             else:
                 file.write(_rows("v %.9g %.9g %.9g\n", piece.V))
-            if piece.texture is not None and piece.texture.uv is not None:
-                picture = piece.texture.image
-                uv, corner = np.unique(piece.texture.uv.reshape(-1, 2), axis=0, return_inverse=True)
+            if texture is not None and texture.picture is not None:
+                picture = texture.picture
+                uv, corner = np.unique(texture.shown.reshape(-1, 2), axis=0, return_inverse=True)
                 file.write(_rows("vt %.6f %.6f\n", uv))
                 file.write(f"g {name}\nusemtl picture\n".encode())
                 pairs = np.stack([piece.F + offset, corner.reshape(-1, 3) + uv_offset], 2)
                 file.write(_rows("f %d/%d %d/%d %d/%d\n", pairs.reshape(-1, 6)))
                 uv_offset += len(uv)
             else:
-                file.write(f"g {name}\nusemtl {name}\n".encode())
+                file.write(f"g {name}\n".encode() + (b"" if tinted else f"usemtl {name}\n".encode()))
                 file.write(_rows("f %d %d %d\n", piece.F + offset))
-                colours.append("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1".format(name, *piece.colour))
+                if not tinted:
+                    materials.append(
+                        "newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1".format(name, *piece.colour)
+                    )
             offset += len(piece.V)
     if picture is not None:
-        picture.save(path.with_suffix(".png"))
-        colours.append(f"newmtl picture\nKd 1 1 1\nillum 1\nmap_Kd {path.with_suffix('.png').name}")
-    materials.write_text("\n".join(colours) + "\n", encoding="utf-8")
+        path.with_suffix(".png").write_bytes(picture.png)
+        materials.append(f"newmtl picture\nKd 1 1 1\nillum 1\nmap_Kd {path.with_suffix('.png').name}")
+    if materials:
+        library.write_text("\n".join(["# meshjig", *materials]) + "\n", encoding="utf-8")
 
 
 def _rows(pattern: str, rows: np.ndarray) -> bytes:
     return (pattern * len(rows) % tuple(rows.ravel().tolist())).encode()
-
-
-def write_glb(path: Path, pieces: Iterable[Piece]) -> None:
-    """Write pieces as one binary glTF file.
-
-    Parameters
-    ----------
-    path : Path
-    pieces : Piece
-        Lengths in mm become metres, as the format asks.
-    """
-    import trimesh
-
-    scene = trimesh.Scene()
-    pictures: dict[int, Any] = {}
-    for piece in pieces:
-        V, F, visual = _dressed(piece, pictures)
-        mesh = trimesh.Trimesh(V * _METRES, F, process=False, validate=False)
-        mesh.visual = visual
-        scene.add_geometry(mesh, node_name=piece.name, geom_name=piece.name)
-    path.write_bytes(scene.export(file_type="glb"))
-
-
-def _dressed(piece: Piece, pictures: dict[int, Any]) -> tuple[Floats, Ints, Any]:
-    """Give vertices, faces and looks; a vertex comes several times where its faces look different."""
-    from trimesh.visual import ColorVisuals, TextureVisuals
-    from trimesh.visual.material import PBRMaterial
-
-    V, F, texture = piece.V, piece.F, piece.texture
-    if texture is None:
-        colour = (*piece.colour, 1.0)
-        plain = PBRMaterial(name=piece.name, baseColorFactor=colour, metallicFactor=0.0, roughnessFactor=0.8)
-        return V, F, TextureVisuals(material=plain)
-    shown = texture.rgb if texture.uv is None else texture.uv
-    rows = np.column_stack([F.ravel(), shown.reshape(3 * len(F), -1)])
-    _, first, corner = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    V, G = V[F.ravel()[first]], corner.reshape(-1, 3)
-    looks = rows[first, 1:]
-    if texture.uv is None:
-        return V, G, ColorVisuals(vertex_colors=np.rint(255 * looks).astype(np.uint8))
-    if id(texture.image) not in pictures:
-        pictures[id(texture.image)] = PBRMaterial(
-            name="picture", baseColorTexture=texture.image, metallicFactor=0.0, roughnessFactor=0.8
-        )
-    return V, G, TextureVisuals(uv=looks, material=pictures[id(texture.image)])

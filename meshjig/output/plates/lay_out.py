@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.mesh import Mesh
 from meshjig.output.piece import Piece
 from meshjig.output.plates.pack import (
     Placements,
@@ -21,6 +22,7 @@ from meshjig.output.plates.pack import (
 )
 from meshjig.output.plates.pose import Pose, lying_pose
 from meshjig.output.plates.printers import Nesting, Plate
+from meshjig.output.texture import carried
 from meshjig.solid.printable import printable
 
 __all__ = ["GAP", "LeftOut", "PlacedPiece", "lay_out"]
@@ -116,9 +118,11 @@ def _placed(lying: _Lying, shadow: Any, where: Placements, i: int) -> PlacedPiec
     turn, shift = where.turn[i], where.shift[i]
     cos, sin = float(np.cos(turn)), float(np.sin(turn))
     W = V @ np.array([[cos, sin, 0], [-sin, cos, 0], [0, 0, 1]]) + np.array([*shift, 0.0])
+    before, texture = Mesh(W, piece.F), piece.texture
     W, F = printable(W, piece.F)
-    same = np.array_equal(F, piece.F)
-    moved = replace(piece, V=W, F=F, texture=piece.texture if same else None)
+    if texture is not None and not np.array_equal(F, piece.F):
+        texture = carried(texture, before, Mesh(W, F))
+    moved = replace(piece, V=W, F=F, texture=texture)
     outline = affinity.affine_transform(shadow, [cos, -sin, sin, cos, *shift])
     return PlacedPiece(moved, int(where.plate[i]) + 1, pose, outline)
 

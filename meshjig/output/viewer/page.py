@@ -162,12 +162,12 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
 
 def _picture(pieces: Sequence[Piece]) -> str | None:
     """The scan's image as a data address, no larger than screens can use."""
-    image = next(
-        (p.texture.image for p in pieces if p.texture is not None and p.texture.uv is not None), None
-    )
-    if image is None:
+    from PIL import Image
+
+    picture = next((p.texture.picture for p in pieces if p.texture is not None and p.texture.picture), None)
+    if picture is None:
         return None
-    small = image.convert("RGB")
+    small = Image.fromarray(picture.pixels)
     small.thumbnail((_MOST_PIXELS, _MOST_PIXELS))
     buffer = io.BytesIO()
     small.save(buffer, "JPEG", quality=88)

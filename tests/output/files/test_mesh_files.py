@@ -3,7 +3,7 @@ import struct
 import numpy as np
 import trimesh
 
-from meshjig.output.files.mesh_files import write_glb, write_obj, write_stl
+from meshjig.output.files.mesh_files import write_obj, write_stl
 from meshjig.output.piece import Piece
 from meshjig.solid.printable import printable
 from tests.meshes import genus2, sphere, torus
@@ -78,16 +78,3 @@ def test_obj_has_a_group_and_a_colour_a_piece(tmp_path):
         np.testing.assert_array_equal(V[np.array(faces)].astype("f4"), piece.V[piece.F])
         block = materials.split(f"newmtl {material}\n")[1].splitlines()[0]
         np.testing.assert_allclose([float(x) for x in block.split()[1:]], piece.colour, atol=1e-4)
-
-
-def test_glb_has_a_named_coloured_node_a_piece_in_metres(tmp_path):
-    write_glb(tmp_path / "puzzle.glb", COLOURED)
-    scene = trimesh.load_scene(tmp_path / "puzzle.glb", process=False)
-    assert set(scene.graph.nodes_geometry) == {"piece_001", "piece_002"}
-    for piece in COLOURED:
-        transform, name = scene.graph[piece.name]
-        mesh = scene.geometry[name]
-        points = trimesh.transform_points(mesh.vertices, transform)
-        np.testing.assert_allclose(1000 * points[mesh.faces], piece.V[piece.F], atol=1e-3)
-        colour = mesh.visual.material.baseColorFactor[:3]
-        np.testing.assert_allclose(colour, np.round(255 * np.array(piece.colour)), atol=1)

@@ -9,7 +9,8 @@ import trimesh
 from meshjig.check import is_closed
 from meshjig.errors import InputError
 from meshjig.mesh.measure import mesh_volume
-from meshjig.output.files.mesh_files import write_glb, write_obj
+from meshjig.output.files.glb import write_glb
+from meshjig.output.files.mesh_files import write_obj
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.piece import Piece
 from tests.meshes import moved, sphere, torus

@@ -6,6 +6,7 @@ from PIL import Image
 
 from meshjig.mesh.measure import unit
 from meshjig.output.piece import Piece
+from meshjig.output.scan_picture import Picture
 from meshjig.output.texture import Texture
 from meshjig.output.viewer.packed_mesh import pack
 from meshjig.output.viewer.page import write_viewer
@@ -23,7 +24,7 @@ def dressed(textured):
     above = (height > 0.5)[..., None]
     rgb = np.where(above, [0.9, 0.12, 0.08], [0.08, 0.12, 0.9])
     uv = np.stack([np.full(height.shape, 0.3), height], 2)
-    texture = Texture(outer, rgb, uv, image) if textured else Texture(outer, rgb)
+    texture = Texture(outer, rgb, uv, Picture(np.asarray(image))) if textured else Texture(outer, rgb)
     return [
         Piece("piece_001", V, F, (0.1, 0.8, 0.1), texture=texture),
         Piece("piece_002", *moved(sphere(500, 20.0), [60, 0, -60]), (0.1, 0.8, 0.1)),

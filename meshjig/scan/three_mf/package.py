@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
+from meshjig.scan.source import Unit
 
-__all__ = ["mesh_arrays", "open_3mf", "read_3mf_mesh"]
+__all__ = ["matrix_of", "mesh_arrays", "open_3mf", "unit_of", "whole_buffer"]
 
 _SMALL = 64_000_000  # bytes; of this size, anything may be packed into a file
 _PACKED = 100  # times as large as the file; text of coordinates becomes at most thirty times larger
@@ -24,7 +26,16 @@ _FEW_FACES = 2_000_000  # so many may be made of anything
 _DEEPEST = 500  # objects within objects
 _FACES_A_BYTE = 5  # of what is unpacked; more only an object makes that places others again and again
 _A_FACE = 300.0, 5e-6  # bytes and s that reading takes
-_MM = (0.001, 1.0, 10.0, 25.4, 304.8, 1000.0)  # a unit, by lib3mf's number of it
+
+
+_UNITS = (  # by lib3mf's number
+    Unit(0.001, "micron", binding=True),
+    Unit(1.0, "millimetre", binding=True),
+    Unit(10.0, "centimetre", binding=True),
+    Unit(25.4, "inch", binding=True),
+    Unit(304.8, "foot", binding=True),
+    Unit(1000.0, "metre", binding=True),
+)
 
 
 def open_3mf(path: Path) -> Any:
@@ -77,50 +88,50 @@ def open_3mf(path: Path) -> Any:
     return model
 
 
-def read_3mf_mesh(path: Path) -> tuple[Floats, Ints]:
-    """Read all that a 3MF file would have built as one mesh.
+def unit_of(model: Any) -> Unit:
+    """Give the unit that a lib3mf.Model states."""
+    return _UNITS[int(model.GetUnit())]
 
-    Returns
-    -------
-    V : (n, 3) float64, mm
-    F : (m, 3) int64
 
-    Raises
-    ------
-    InputError
-        As `open_3mf`.
-    """
-    model = open_3mf(path)
-    mm = _MM[int(model.GetUnit())]
-    objects = model.MergeToModel().GetMeshObjects()
-    V = [np.zeros((0, 3))]
-    F = [np.zeros((0, 3), np.int64)]
-    n = 0
-    while objects.MoveNext():
-        mesh = objects.GetCurrentMeshObject()
-        points, triangles = mesh_arrays(mesh)
-        V.append(points)
-        F.append(triangles + n)
-        n += len(points)
-    return np.concatenate(V) * mm, np.concatenate(F)
+def matrix_of(transform: Any) -> Floats:
+    """Give a lib3mf.Transform as a matrix, (4, 4), that multiplies row vectors from the right."""
+    matrix = np.eye(4)
+    matrix[:, :3] = np.array([list(row) for row in transform.Fields])
+    return matrix
 
 
 def mesh_arrays(mesh: Any) -> tuple[Floats, Ints]:
-    """Take over whole buffers: the binding's own getters make a Python object of every vertex."""
+    """Give the vertices (n, 3) float64 and triangles (m, 3) int64 of a lib3mf.MeshObject."""
     import lib3mf
 
     library = mesh._wrapper.lib
-    V = np.zeros((mesh.GetVertexCount(), 3), np.float32)
-    F = np.zeros((mesh.GetTriangleCount(), 3), np.uint32)
-    for array, kind, fetch in (
-        (V, lib3mf.Position, library.lib3mf_meshobject_getvertices),
-        (F, lib3mf.Triangle, library.lib3mf_meshobject_gettriangleindices),
-    ):
-        if len(array):
-            buffer = (kind * len(array)).from_buffer(array)
-            needed = ctypes.c_uint64(0)
-            mesh._wrapper.checkError(mesh, fetch(mesh._handle, ctypes.c_uint64(len(array)), needed, buffer))
-    return V.astype(np.float64), F.astype(np.int64)
+    V = whole_buffer(mesh, library.lib3mf_meshobject_getvertices, lib3mf.Position, mesh.GetVertexCount())
+    F = whole_buffer(
+        mesh, library.lib3mf_meshobject_gettriangleindices, lib3mf.Triangle, mesh.GetTriangleCount()
+    )
+    return V.view(np.float32).reshape(-1, 3).astype(np.float64), F.reshape(-1, 3).astype(np.int64)
+
+
+def whole_buffer(thing: Any, fetch: Any, kind: Any, count: int) -> NDArray[np.uint32]:
+    """Take over a whole buffer: the binding's own getters make a Python object of every row.
+
+    Parameters
+    ----------
+    thing : a lib3mf object
+    fetch : function of lib3mf's library that fills a buffer
+    kind : ctypes type of a row, a multiple of four bytes long
+    count : int, of rows
+
+    Returns
+    -------
+    (count, words) uint32, the bytes as they are
+    """
+    rows = np.zeros((count, ctypes.sizeof(kind) // 4), np.uint32)
+    if count:
+        buffer = (kind * count).from_buffer(rows)
+        needed = ctypes.c_uint64(0)
+        thing._wrapper.checkError(thing, fetch(thing._handle, ctypes.c_uint64(count), needed, buffer))
+    return rows
 
 
 def _faces_placed(archive: zipfile.ZipFile) -> tuple[int, int]:
