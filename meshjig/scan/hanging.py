@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints, ragged, row_of, starts
-from meshjig.mesh.halfedges import edges
+from meshjig.mesh.halfedges import Edges, edges
 
 __all__ = ["join_hanging"]
 
@@ -23,7 +23,7 @@ class _Hanging(NamedTuple):
     vertex: Ints  # (k,)
 
 
-def join_hanging(V: Floats, F: Ints, tolerance: float) -> tuple[Ints, int]:
+def join_hanging(V: Floats, F: Ints, tolerance: float, e: Edges | None = None) -> tuple[Ints, int]:
     """Split border edges, and the faces along them, at the border vertices that lie on them.
 
     Parameters
@@ -31,6 +31,7 @@ def join_hanging(V: Floats, F: Ints, tolerance: float) -> tuple[Ints, int]:
     V : (n, 3) float64
     F : (m, 3) int64, whose border vertices are welded
     tolerance : float, a distance in the units of V
+    e : Edges, of F, where the caller has them
 
     Returns
     -------
@@ -39,7 +40,8 @@ def join_hanging(V: Floats, F: Ints, tolerance: float) -> tuple[Ints, int]:
     """
     joined = 0
     for _ in range(_ROUNDS):
-        found = _on_border_edges(V, F, tolerance)
+        found = _on_border_edges(V, F, tolerance, e or edges(F))
+        e = None
         if not len(found.halfedge):
             break
         first_of_face = np.unique(found.halfedge // 3, return_index=True)[1]
@@ -49,12 +51,11 @@ def join_hanging(V: Floats, F: Ints, tolerance: float) -> tuple[Ints, int]:
     return F, joined
 
 
-def _on_border_edges(V: Floats, F: Ints, tolerance: float) -> _Hanging:
+def _on_border_edges(V: Floats, F: Ints, tolerance: float, e: Edges) -> _Hanging:
     """Find the border vertices that lie inside border edges."""
     from scipy.spatial import cKDTree
 
     none: Ints = np.zeros(0, np.int64)
-    e = edges(F)
     h = np.flatnonzero(e.n_faces[e.edge_of_halfedge] == 1)
     if not len(h):
         return _Hanging(none, none)

@@ -25,13 +25,13 @@ class ManifoldMesh(NamedTuple):
     n_vertices: int  # vertices that were split
 
 
-def is_clean(F: Ints, n: int) -> bool:
-    """Tell whether faces make a manifold, coherent mesh of n vertices.
+def is_clean(F: Ints, n: int, e: Edges | None = None) -> bool:
+    """Tell whether faces make a manifold, coherent mesh of n vertices; e are its edges, where they are known.
 
     That is: every edge has one or two faces, which run along it in opposite directions, and every vertex
     is used, by one fan.
     """
-    e = edges(F)
+    e = edges(F) if e is None else e
     if e.n_faces.max(initial=0) > 2:
         return False
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))

@@ -8,9 +8,8 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected
-from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import edges
-from meshjig.mesh.measure import area_vectors, face_areas
+from meshjig.mesh.mesh import Mesh
 
 __all__ = ["Sides", "make_coherent", "turn_outward"]
 
@@ -77,7 +76,7 @@ def make_coherent(F: Ints, *, strict: bool = True) -> tuple[Ints, int]:
     return F, int(turn.sum())
 
 
-def turn_outward(V: Floats, F: Ints) -> Sides:
+def turn_outward(mesh: Mesh) -> Sides:
     """Turn inside-out components, and find the shells that are hollows of a solid.
 
     A closed component inside an odd number of others bounds a hollow, whichever way it faces; it is made
@@ -85,44 +84,40 @@ def turn_outward(V: Floats, F: Ints) -> Sides:
 
     Parameters
     ----------
-    V : (n, 3) float64
-    F : (m, 3) int64, manifold and coherent
+    mesh : Mesh, manifold and coherent
 
     Returns
     -------
     Sides
     """
-    n, component = components(F)
-    open_ = _with_border(F, n, component)
+    V, F = mesh
+    n, component = mesh.n_components, mesh.component_of_face
+    open_ = np.bincount(component[mesh.borders // 3], minlength=n) > 0
     depth = _depth(V, F, n, component, open_)
-    volume = _volumes(V, F, n, component, open_)
-    area = np.bincount(component, face_areas(V, F), n)
+    volume = _volumes(mesh, open_)
+    area = np.bincount(component, mesh.areas, n)
     hollow = depth % 2 == 1
     unclear = open_ & (np.abs(volume) < _CLEAR * area**1.5)
     turn = ((volume < 0) != hollow) & ~unclear & (volume != 0)
-    F = F.copy()
-    faces = turn[component]
-    F[faces] = F[faces][:, ::-1]
+    if turn.any():
+        F = F.copy()
+        faces = turn[component]
+        F[faces] = F[faces][:, ::-1]
     return Sides(F, int(turn.sum()), hollow[component])
 
 
-def _with_border(F: Ints, n: int, component: Ints) -> Bools:
-    twin = edges(F).twin
-    border = np.flatnonzero(twin == np.arange(len(twin)))
-    return np.bincount(component[border // 3], minlength=n) > 0
-
-
-def _volumes(V: Floats, F: Ints, n: int, component: Ints, open_: Bools) -> Floats:
+def _volumes(mesh: Mesh, open_: Bools) -> Floats:
     """Each component's signed volume; an open one is measured from the middle of its border."""
-    twin = edges(F).twin
-    h = np.flatnonzero(twin == np.arange(len(twin)))
+    V, F = mesh
+    n, component, h = mesh.n_components, mesh.component_of_face, mesh.borders
     # closed: any origin does, one nearby is exact; open: cones over the border's middle close it
     weight = np.bincount(component, minlength=n).astype(float) * ~open_
     weight += np.bincount(component[h // 3], minlength=n)
-    which = np.concatenate([component[h // 3], component[~open_[component]]])
-    points = np.concatenate([V[F.ravel()[h]], V[F[~open_[component], 0]]])
+    closed = ~open_[component]
+    which = np.concatenate([component[h // 3], component[closed]])
+    points = np.concatenate([V[F.ravel()[h]], V[F[closed, 0]]])
     origin = np.stack([np.bincount(which, points[:, k], n) for k in range(3)], 1) / weight[:, None]
-    cone = np.einsum("ij,ij->i", V[F[:, 0]] - origin[component], area_vectors(V, F)) / 6
+    cone = np.einsum("ij,ij->i", V[F[:, 0]] - origin[component], mesh.area_vectors) / 6
     return np.bincount(component, cone, n).astype(np.float64)
 
 

@@ -11,7 +11,7 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import compact
-from meshjig.mesh.measure import face_areas
+from meshjig.mesh.mesh import Mesh
 from meshjig.scan.hanging import join_hanging
 from meshjig.scan.loss import loss
 from meshjig.scan.manifold import is_clean, make_manifold
@@ -86,22 +86,27 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
     V, F, merged = weld(V, F, _WELD * diagonal)
     F, null, duplicate = drop_doubles(F)
     F, flat = flip_flat(V, F, _FLAT * diagonal)
-    F, hanging = join_hanging(V, F, _HANGING * diagonal)
     V, F = _used(V, F)
-    clean = is_clean(F, len(V))
+    mesh = Mesh(V, F)
+    F, hanging = join_hanging(V, F, _HANGING * diagonal, mesh.edges)
+    mesh = Mesh(V, F) if hanging else mesh
+    clean = is_clean(F, len(V), mesh.edges)
     turned = crowded_edges = split_vertices = walls = 0
     if not clean:
         F, turned = make_coherent(F, strict=False)
         F, walls, turned_walls = double_walls(V, F)
         turned += turned_walls
         V, F, crowded_edges, split_vertices = make_manifold(V, F)
-    crumb, n_crumbs, share = _crumbs(V, F)
+        mesh = Mesh(V, F)
+    crumb, n_crumbs, share = _crumbs(mesh)
     if n_crumbs:
         V, F = _used(V, F[~crumb])
+        mesh = Mesh(V, F)
     if not clean:
         F, turned_again = make_coherent(F)
         turned += turned_again
-    sides = turn_outward(V, F)
+        mesh = Mesh(V, F)
+    sides = turn_outward(mesh)
     F, cavity = sides.F, sides.cavity
     n_cavities = components(F[cavity])[0] if cavity.any() else 0
     if not cavities and cavity.any():
@@ -141,10 +146,10 @@ def _used(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     return V[kept], F
 
 
-def _crumbs(V: Floats, F: Ints) -> tuple[Bools, int, float]:
+def _crumbs(mesh: Mesh) -> tuple[Bools, int, float]:
     """Tell which faces are in components too small to matter, how many these are, and their share of area."""
-    n, component = components(F)
-    area = np.bincount(component, face_areas(V, F), n)
+    n, component = mesh.n_components, mesh.component_of_face
+    area = np.bincount(component, mesh.areas, n)
     total = float(area.sum())
     crumb = area < _CRUMB * total
     share = float(area[crumb].sum()) / total if total else 0.0

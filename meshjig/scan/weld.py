@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors
+from meshjig.scan.close_points import close_pairs
 
 __all__ = ["drop_doubles", "flip_flat", "weld"]
 
@@ -34,27 +35,17 @@ def weld(V: Floats, F: Ints, tolerance: float) -> tuple[Floats, Ints, int]:
     e = edges(F)
     length = np.linalg.norm(V[e.E[:, 0]] - V[e.E[:, 1]], axis=1)
     pairs = e.E[(length <= tolerance) & (e.E[:, 0] != e.E[:, 1])]
-    border = np.unique(e.E[e.n_faces != 2])
+    on_border = np.zeros(len(V), bool)
+    on_border[e.E[e.n_faces != 2]] = True
+    border = np.flatnonzero(on_border)
     if len(border):
-        pairs = np.concatenate([pairs, _close_pairs(V, border, tolerance)])
+        pairs = np.concatenate([pairs, border[close_pairs(V[border], tolerance)]])
     if not len(pairs):
         return V, F, 0
     n, group = connected(len(V), *pairs.T)
-    first = np.unique(group, return_index=True)[1]
+    first = np.full(n, len(V))
+    np.minimum.at(first, group, np.arange(len(V)))
     return V[first], group[F], len(V) - n
-
-
-def _close_pairs(V: Floats, candidates: Ints, tolerance: float) -> Ints:
-    """Enough pairs of candidates to connect all that lie within tolerance."""
-    from scipy.spatial import cKDTree
-
-    P = V[candidates] + 0.0  # -0 and 0 are one place
-    order = np.lexsort(P.T)
-    same = (P[order[1:]] == P[order[:-1]]).all(axis=1)
-    exact = np.stack([order[:-1][same], order[1:][same]], 1)
-    first = order[np.concatenate([[True], ~same])]  # one of each place: an STL has six in each
-    near = first[cKDTree(P[first]).query_pairs(tolerance, output_type="ndarray")]
-    return candidates[np.concatenate([exact, near.reshape(-1, 2)])]
 
 
 def drop_doubles(F: Ints) -> tuple[Ints, int, int]:
@@ -118,7 +109,7 @@ def flip_flat(V: Floats, F: Ints, height: float) -> tuple[Ints, int]:
 
 def _flat(V: Floats, F: Ints, height: float) -> tuple[Bools, Ints]:
     """Tell which faces are flat, and give each face's longest side."""
-    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F], axis=2)
+    sides = np.stack([np.linalg.norm(V[F[:, (k + 1) % 3]] - V[F[:, k]], axis=1) for k in range(3)], 1)
     longest = sides.argmax(axis=1)
     return np.linalg.norm(area_vectors(V, F), axis=1) <= height * sides.max(axis=1), longest
 
