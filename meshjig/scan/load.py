@@ -10,6 +10,7 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.measure import face_areas
 from meshjig.runtime.bounded import OutOfBounds, ReadAhead
 from meshjig.scan.file_mesh import FileMesh
 from meshjig.scan.from_trimesh import from_trimesh
@@ -121,7 +122,7 @@ def _checked(mesh: Source, name: str) -> tuple[Floats, Ints]:
             hint="remove them, or export it again",
             ids=bad[:100].tolist(),
         )
-    _check_area(V[F], name)
+    _check_area(V, F, V[used], name)
     return V, F
 
 
@@ -136,10 +137,9 @@ def _check_range(F: Ints, n: int, name: str) -> None:
         )
 
 
-def _check_area(corners: Floats, name: str) -> None:
-    extent = float((corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))).max())
-    if np.abs(corners).max() > _EXTENTS[1] or 0 < extent < _EXTENTS[0]:
+def _check_area(V: Floats, F: Ints, used: Floats, name: str) -> None:
+    extent = float(np.ptp(used, axis=0).max())
+    if np.abs(used).max() > _EXTENTS[1] or 0 < extent < _EXTENTS[0]:
         raise InputError(f"{name} has an extent of {extent:g}, beyond any unit", hint="export it again")
-    a, b, c = (corners / (extent or 1.0)).transpose(1, 0, 2)
-    if not np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() > 1e-12:
+    if not 2 * face_areas(V / (extent or 1.0), F).sum() > 1e-12:
         raise InputError(f"{name} has no area: all its faces are points or lines", hint="export it again")

@@ -33,7 +33,7 @@ _PLAUSIBLE = (20.0, 500.0)  # mm; a model of such extent was most likely made in
 _DEFAULT = 150.0  # mm
 _FLOAT32 = 1e-6  # a model of 500 mm may come back from a file with 500.00002
 _FINE = 500_000  # faces; meshes of more are thinned out first, which takes a tenth of the time
-_THINNED = 2  # times as many faces as asked for are left then
+_THINNED = 1.5  # times as many faces as asked for are left then
 _SHARE = 1.5  # at least so many times that are there before: else it is not worth it
 _FAR = 1000.0  # mm from the origin, where the float32 of an STL file is down to 0.0001
 
@@ -150,7 +150,7 @@ def decimate(V: Floats, F: Ints, faces: int) -> tuple[Floats, Ints]:
     if len(F) <= faces:
         return V, F
     if len(F) > _FINE and len(F) > _THINNED * _SHARE * faces:
-        V, F = collapse_fast(V, F, _THINNED * faces)
+        V, F = collapse_fast(V, F, int(_THINNED * faces))
     pymeshlab = import_pymeshlab()
     meshes = pymeshlab.MeshSet(verbose=False)
     meshes.add_mesh(pymeshlab.Mesh(V, F))

@@ -60,12 +60,25 @@ def drop_doubles(F: Ints) -> tuple[Ints, int, int]:
     a, b, c = F.T
     null = (a == b) | (b == c) | (c == a)
     F = F[~null]
+    if _all_differ(F):
+        return F, int(null.sum()), 0
     corners = np.sort(F, axis=1)
     order = np.lexsort(corners.T)
     same = (corners[order[1:]] == corners[order[:-1]]).all(axis=1)
     keep = np.ones(len(F), bool)
     keep[order[1:][same]] = False  # lexsort is stable: the first of each run stays
     return F[keep], int(null.sum()), int(same.sum())
+
+
+def _all_differ(F: Ints) -> bool:
+    """Tell that no two faces have equal corners, for sure; it may fail to where that is so."""
+    of_vertex = np.arange(int(F.max(initial=0)) + 1, dtype=np.uint64) + np.uint64(1)
+    for odd in (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F):
+        of_vertex *= np.uint64(odd)
+        of_vertex ^= of_vertex >> np.uint64(29)
+    mixed = of_vertex[F[:, 0]] + of_vertex[F[:, 1]] + of_vertex[F[:, 2]]  # in whichever order they come
+    mixed.sort()
+    return not (mixed[1:] == mixed[:-1]).any()
 
 
 def flip_flat(V: Floats, F: Ints, height: float) -> tuple[Ints, int]:
