@@ -8,10 +8,20 @@
     |-- ChartError          a chart can't be flattened
     |-- CutError            the surface can't be cut as asked
     |-- SolidError          a piece can't be given its thickness
-    `-- OutputError         the result can't be written
+    |-- OutputError         the result can't be written
+    `-- ResourceError       the machine, or a limit given, has too little memory, disk or time
 """
 
-__all__ = ["ChartError", "CutError", "InputError", "MeshjigError", "OptionError", "OutputError", "SolidError"]
+__all__ = [
+    "ChartError",
+    "CutError",
+    "InputError",
+    "MeshjigError",
+    "OptionError",
+    "OutputError",
+    "ResourceError",
+    "SolidError",
+]
 
 
 class MeshjigError(Exception):
@@ -70,3 +80,9 @@ class OutputError(MeshjigError):
     """The result can't be written."""
 
     stage = "output"
+
+
+class ResourceError(MeshjigError):
+    """The machine, or a limit that was given, has too little memory, disk or time."""
+
+    stage = "resources"

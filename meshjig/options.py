@@ -63,6 +63,7 @@ class OptionKeywords(TypedDict, total=False):
     angle: float | None
     stitch: float | None
     cavities: bool | None
+    memory: float | None
     labels: bool | None
     core: bool | None
     seed: int | None
@@ -155,6 +156,9 @@ class Options(BaseModel):
     )
     stitch: FiniteFloat = Field(
         0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam"
+    )
+    memory: FiniteFloat | None = Field(
+        None, gt=0, description="limit of memory, GB: what would take more ends in a sentence"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     labels: bool = Field(False, description="engrave the number of every piece into its inner side")

@@ -28,6 +28,7 @@ from meshjig.cli.terminal import (
     tell_notes,
 )
 from meshjig.errors import OptionError
+from meshjig.options import Options
 from meshjig.runtime.bounded import ReadAhead
 from meshjig.runtime.interpreter import end_with_parent
 from meshjig.runtime.messages import tell, tell_through
@@ -87,6 +88,7 @@ def make(
     """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
     with sentences(verbose, quiet):
         options = read_options(config, flags)
+        _watch(options)
         if dry_run:
             from meshjig.pipeline.plan import plan_puzzle
 
@@ -116,7 +118,7 @@ def make(
 
 
 @app.command()
-@takes_options("size", "pieces", "faces", "fill_holes", "cavities", "resurface", "seed")
+@takes_options("size", "pieces", "faces", "fill_holes", "memory", "cavities", "resurface", "seed")
 def info(
     mesh: MeshPath,
     flags: Flags,
@@ -132,15 +134,22 @@ def info(
     """Say what a mesh is, and what would be done to it."""
     with sentences(verbose, quiet):
         options = read_options(None, flags | ({"charts": method} if method else {}))
+        _watch(options)
         if charts or method or output:
             from meshjig.pipeline.prepare import describe_charts
 
             facts = describe_charts(mesh, options, output)
         else:
             scan = ReadAhead(mesh)
-            from meshjig.scan import describe
+            from meshjig.scan import Preparation, describe
 
-            found = describe(scan, size=options.size, faces=options.faces, cavities=options.cavities)
+            found = describe(
+                scan,
+                size=options.size,
+                faces=options.faces,
+                cavities=options.cavities,
+                preparation=Preparation(memory=options.memory),
+            )
             facts = dict(found.as_dict())
         emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
@@ -240,6 +249,14 @@ def tiles(
             write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
         facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
         emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+
+
+def _watch(options: Options) -> None:
+    """Keep the run within the limit of memory that was given, if one was."""
+    if options.memory is not None:
+        from meshjig.runtime.memory import watch_memory
+
+        watch_memory(options.memory)
 
 
 def run(words: Sequence[str]) -> NoReturn:

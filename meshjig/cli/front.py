@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 __all__ = ["run_in_front"]
 
-_CRASHED, _CUT_OFF = 1, 128  # exit codes; to the second, the number of the signal is added
+_CRASHED, _NO_MEMORY, _CUT_OFF = 1, 5, 128  # exit codes; to the second, the number of the signal is added
+_LEAST_SPACE = 1e9  # bytes of address space; with 0.4e9 libraries wait for threads that can't start
 _CRASHES = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGBUS": "a bus error"}
 _SHOW_CURSOR = b"\r\x1b[K\x1b[?25h"  # a progress line may have hidden it
 
@@ -32,6 +33,7 @@ def run_in_front() -> NoReturn:
         if signal.getsignal(number) != signal.SIG_IGN:  # as nohup wants it
             signal.signal(number, _end_the_run)
     _open_standard_streams()
+    _refuse_little_memory()
     reading, status = _wait_for_run()
     _leave(reading, status)
 
@@ -95,11 +97,15 @@ def _leave(reading: int, status: int) -> NoReturn:
             os.rmdir(parent)
         except OSError:
             continue
-    name = signal.Signals(number).name
+    name = signal.Signals(number).name if number else "an exit of its own"
     done = f"{', '.join(sorted(written))} is whole" if written else "nothing was written"
     if _asked_by or name in ("SIGTERM", "SIGHUP", "SIGINT"):
         _say(f"meshjig: interrupted; {done}")
         os._exit(_CUT_OFF + number)
+    short = dict(told).get("memory") or _short_of_address_space(name)
+    if short:
+        _say(f"meshjig: {short}; {done}: use a mesh of fewer faces, or allow more memory")
+        os._exit(_NO_MEMORY)
     if name == "SIGKILL":
         _say(f"meshjig: the run was killed, perhaps for want of memory; {done}: use fewer faces (--faces)")
     else:
@@ -107,6 +113,30 @@ def _leave(reading: int, status: int) -> NoReturn:
             f"meshjig: native code ended by {_CRASHES.get(name, name)}; {done}: this is a bug, -v shows where"
         )
     os._exit(_CRASHED)
+
+
+def _refuse_little_memory() -> None:
+    """End at once under a limit of address space under which libraries hang or crash as they start."""
+    import resource
+
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    needs_it = sys.argv[1:2] in (["make"], ["info"], ["check"])
+    if needs_it and most != resource.RLIM_INFINITY and most < _LEAST_SPACE:
+        _say(
+            f"meshjig: only {most / 1e9:.2g} GB of address space are allowed (ulimit -v), "
+            f"and {_LEAST_SPACE / 1e9:g} GB is the least; nothing was written: allow more"
+        )
+        os._exit(_NO_MEMORY)
+
+
+def _short_of_address_space(name: str) -> str:
+    """Say what limit of the system's native code may have crashed at; nothing where there is none."""
+    import resource
+
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if most == resource.RLIM_INFINITY or name not in _CRASHES:
+        return ""
+    return f"native code ended by {_CRASHES[name]} under a limit of {most / 1e9:.2g} GB of memory (ulimit -v)"
 
 
 def _clear_up(target: str) -> bool:

@@ -11,7 +11,7 @@ from typing import Any
 
 import typer
 
-from meshjig.errors import MeshjigError, OutputError
+from meshjig.errors import MeshjigError, OutputError, ResourceError
 from meshjig.runtime.messages import folders_written
 
 __all__ = [
@@ -29,7 +29,7 @@ __all__ = [
     "tell_notes",
 ]
 
-FAILED, USAGE, BROKEN_PROMISE, INTERRUPTED = 1, 2, 3, 130
+FAILED, USAGE, BROKEN_PROMISE, RESOURCES, INTERRUPTED = 1, 2, 3, 5, 130
 
 
 def say(sentence: str) -> None:
@@ -73,13 +73,13 @@ def sentences(verbose: bool, quiet: bool) -> Iterator[None]:
         yield
     except MeshjigError as error:
         say(f"meshjig: {error}")
-        raise typer.Exit(FAILED) from None
+        raise typer.Exit(RESOURCES if isinstance(error, ResourceError) else FAILED) from None
     except KeyboardInterrupt:
         say(f"meshjig: interrupted; {outcome()}")
         raise typer.Exit(INTERRUPTED) from None
     except MemoryError:
         say("meshjig: not enough memory: use fewer faces (--faces)")
-        raise typer.Exit(FAILED) from None
+        raise typer.Exit(RESOURCES) from None
     except typer.Exit:
         raise
     except Exception as error:

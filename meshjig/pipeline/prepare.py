@@ -122,7 +122,7 @@ def preparation(options: Options) -> Preparation:
             open=options.open_base,
             stands=options.flat_base is not None,
         )
-    return Preparation(options.unit, options.keep, floor, options.clearance)
+    return Preparation(options.unit, options.keep, floor, options.clearance, options.memory)
 
 
 def _open_base(scan: Scan, options: Options) -> Bools | None:

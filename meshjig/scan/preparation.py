@@ -32,3 +32,4 @@ class Preparation:
     keep: Keep = "all"  # connected parts, by their area
     floor: Floor | None = None
     apart: float = 0.0  # mm, that bodies are drawn apart where they touch
+    memory: float | None = None  # GB that reading and simplifying may take; None: no limit

@@ -15,6 +15,7 @@ from meshjig.mesh.mesh import Mesh
 from meshjig.scan.coarse import refuse_coarse
 from meshjig.scan.fill import FilledHoles
 from meshjig.scan.floor import FloorFacts
+from meshjig.scan.forecast import foretell
 from meshjig.scan.load import load
 from meshjig.scan.notes import repair_notes
 from meshjig.scan.preparation import Preparation
@@ -98,11 +99,15 @@ def read_scan(
     ------
     InputError
         The mesh can't be read, or is no surface; the sentence says why.
+    ResourceError
+        It would take more memory than allowed.
     """
+    preparation = preparation or Preparation()
+    foretell(source, preparation.memory)
     loaded = load(source)
     refuse_coarse(loaded.V, loaded.F, loaded.file or "the mesh")
     V, F, repairs = repair(loaded.V, loaded.F, cavities=cavities)
-    scaled, F, floor, notes = to_size(V, F, loaded.source, size, preparation or Preparation())
+    scaled, F, floor, notes = to_size(V, F, loaded.source, size, preparation)
     V, resurfaced = scaled.V, None
     if resurface:
         V, F, resurfaced = rebuild(V, F, resurfacing_cell(V, F, faces), cavities=cavities)
@@ -136,13 +141,18 @@ def read_scan(
 
 
 def describe(
-    source: Any, *, size: float | None = None, faces: int | Literal["all"] = 100_000, cavities: bool = False
+    source: Any,
+    *,
+    size: float | None = None,
+    faces: int | Literal["all"] = 100_000,
+    cavities: bool = False,
+    preparation: Preparation | None = None,
 ) -> ScanFacts:
     """Say what a mesh is and what would be done to it, without making a puzzle.
 
     Parameters
     ----------
-    source, size, faces, cavities
+    source, size, faces, cavities, preparation
         As for `read_scan`.
 
     Returns
@@ -155,6 +165,6 @@ def describe(
     InputError
         As `read_scan`.
     """
-    scan = read_scan(source, size=size, faces=faces, cavities=cavities)
+    scan = read_scan(source, size=size, faces=faces, cavities=cavities, preparation=preparation)
     pairs = self_crossings(scan.mesh.V, scan.mesh.F)
     return replace(scan.facts, self_crossings=None if pairs is None else len(pairs))
