@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.components import fans
 from meshjig.mesh.halfedges import compact, edge_keys, edges
 
@@ -68,11 +68,11 @@ def collapse_fast(V: Floats, F: Ints, faces: int) -> tuple[Floats, Ints]:
 
 def _clusters(n: int, collapses: Ints) -> Ints:
     """Give the vertex that each of n ends in, when the second of every pair (k, 2) goes into the first."""
-    into = np.arange(n)
-    into[collapses[:, 1]] = collapses[:, 0]
-    while not np.array_equal(further := into[into], into):
-        into = further
-    return into
+    count, label = connected(n, collapses[:, 0], collapses[:, 1])
+    left = np.delete(np.arange(n), collapses[:, 1])
+    end = np.empty(count, np.int64)
+    end[label[left]] = left
+    return end[label]
 
 
 def _drawn_together(F: Ints, cluster: Ints) -> tuple[Ints, Ints]:
