@@ -9,6 +9,7 @@ from meshjig.mesh.arrays import Floats, Ints
 __all__ = [
     "area_vectors",
     "barycentric",
+    "corner_angles",
     "edge_lengths",
     "face_areas",
     "face_sides",
@@ -70,6 +71,13 @@ def vertex_normals(V: Floats, F: Ints) -> Floats:
         for corner in corners:
             out[:, axis] += np.bincount(corner, N[axis], len(V))
     return unit(out)
+
+
+def corner_angles(V: Floats, F: Ints) -> Floats:
+    """Give the angle at each corner of each face, (m, 3), radians."""
+    corner = V[F]
+    p, q = corner[:, [1, 2, 0]] - corner, corner[:, [2, 0, 1]] - corner
+    return np.arctan2(np.linalg.norm(np.cross(p, q), axis=2), np.einsum("ijk,ijk->ij", p, q))
 
 
 def mesh_volume(V: Floats, F: Ints) -> float:

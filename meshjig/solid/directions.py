@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.measure import area_vectors, corner_angles, unit
 from meshjig.mesh.smoothing import Smoother
 
 __all__ = ["miter_directions", "smooth_normals", "visible_directions"]
@@ -33,7 +33,7 @@ def miter_directions(V: Floats, F: Ints, cap: float = 2.0) -> Floats:
         that sum to 1 and n the angle-weighted normal
     """
     N = unit(area_vectors(V, F))
-    w = _corner_angles(V, F)
+    w = corner_angles(V, F)
     total = np.maximum(_sum_at_vertices(F, w, len(V)), 1e-300)
     rhs = np.stack([_sum_at_vertices(F, w * N[:, [k]], len(V)) for k in range(3)], 1)
     normal = unit(rhs)
@@ -64,12 +64,6 @@ def smooth_normals(V: Floats, F: Ints, smoother: Smoother, scale: float) -> Floa
     N = area_vectors(V, F) / 6
     integrals = np.stack([_sum_at_vertices(F, np.repeat(N[:, [k]], 3, 1), len(V)) for k in range(3)], 1)
     return unit(smoother.solve(integrals, scale, start=unit(integrals), tolerance=1e-3))
-
-
-def _corner_angles(V: Floats, F: Ints) -> Floats:
-    corner = V[F]
-    p, q = corner[:, [1, 2, 0]] - corner, corner[:, [2, 0, 1]] - corner
-    return np.arctan2(np.linalg.norm(np.cross(p, q), axis=2), np.einsum("ijk,ijk->ij", p, q))
 
 
 def _sum_at_vertices(F: Ints, corner_values: Floats, n: int) -> Floats:

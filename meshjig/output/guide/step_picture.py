@@ -93,7 +93,7 @@ def draw_step(placed: PlacedFaces, view: View, frame: Frame, new: Sequence[int],
 
     rgb = np.ones((*ghost.shape, 3), np.float32)
     rgb -= ((1 - _GHOST) * uniform_filter(ghost.astype(np.float32), 7) * _fade(ghost.shape))[..., None]
-    shade = _shade(scene.vertex_normal, view)[scene.F[face]]
+    shade = _shade(scene.normal, view)[scene.corner[face]]
     light = np.einsum("ij,ij->i", shade, met.corner[hit])
     tint = np.array([_PLACED, _NEW], np.float32)[fresh[row, column].astype(np.int64)]
     rgb[row, column] = tint * light[:, None]

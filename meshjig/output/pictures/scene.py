@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
-from meshjig.mesh.measure import area_vectors, unit, vertex_normals
+from meshjig.mesh.creases import crease_normals
 from meshjig.mesh.mesh import concatenate
 from meshjig.mesh.rays import Floats32, RayScene
 from meshjig.output.pictures.colours import to_linear
@@ -16,8 +16,6 @@ from meshjig.output.piece import Piece
 
 __all__ = ["Hits", "Scene", "cast", "draw_lines", "scene_of", "scene_of_pieces", "shifted"]
 
-
-_CREASE = 0.85  # cosine between a face and its corner's normal below which the corner is not smoothed
 
 _NEAR = 4e-3  # radii of the model: what lies no farther behind what is seen is seen itself
 _INK = (30, 30, 30)
@@ -31,8 +29,8 @@ class Scene:
     middle: Floats  # (3,)
     radius: float
     F: Ints  # (m, 3)
-    face_normal: Floats32  # (m, 3)
-    vertex_normal: Floats32  # (n, 3)
+    corner: Ints  # (m, 3), into the normals
+    normal: Floats32  # (k, 3), of vertices split along creases
     colour: Floats32  # (m, 3), linear light
     id: Ints  # (m,)
 
@@ -71,11 +69,10 @@ def scene_of(V: Floats, F: Ints, colour_of_face: Floats, id_of_face: Ints) -> Sc
     -------
     Scene
     """
-    normal = unit(area_vectors(V, F)).astype(np.float32)
+    corner, normal = crease_normals(V, F)
     colour = to_linear(colour_of_face).astype(np.float32)
-    corner = vertex_normals(V, F).astype(np.float32)
     middle, radius = _ball(V)
-    return Scene(_rays(V, F), middle, radius, F, normal, corner, colour, id_of_face)
+    return Scene(_rays(V, F), middle, radius, F, corner, normal.astype(np.float32), colour, id_of_face)
 
 
 def scene_of_pieces(pieces: Sequence[Piece]) -> Scene:
@@ -134,14 +131,10 @@ def cast(scene: Scene, view: View, size: int, column: Floats, row: Floats) -> Hi
 
 
 def _smooth_normal(scene: Scene, face: Ints, u: Floats32, v: Floats32) -> Floats32:
-    """Blend the corners' normals, but for those across a crease."""
-    flat = scene.face_normal[face]
-    total = np.zeros_like(flat)
+    """Blend the normals of a face's corners."""
+    total = np.zeros((len(face), 3), np.float32)
     for k, weight in enumerate((1 - u - v, u, v)):
-        corner = scene.vertex_normal[scene.F[face, k]]
-        creased = np.einsum("ij,ij->i", corner, flat) < _CREASE
-        corner[creased] = flat[creased]
-        total += weight[:, None] * corner
+        total += weight[:, None] * scene.normal[scene.corner[face, k]]
     return total / np.maximum(np.sqrt(np.einsum("ij,ij->i", total, total)), np.float32(1e-12))[:, None]
 
 

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.mesh.arrays import Bools, Floats, Ints, connected
-from meshjig.mesh.halfedges import edges, next_halfedge
-from meshjig.mesh.measure import area_vectors, unit
+from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.creases import split_at_creases
 from meshjig.mesh.mesh import concatenate
 from meshjig.output.piece import Piece
 
 __all__ = ["PackedMesh", "pack"]
 
-_SMOOTH = 0.77  # cosine between two faces below which their edge is a crease: 40 degrees
 _MOST = 65535  # of 16 bits
 _NO_PLACE = 0xFFFF_FFFF  # code of a corner that shows nothing of an image
 Bytes = NDArray[np.uint8]
@@ -62,7 +60,7 @@ def pack(pieces: Sequence[Piece]) -> PackedMesh:
     are doubled along creases, so that normals can be had by summing up over faces.
     """
     V, F, _, piece_of_face = concatenate(pieces)
-    creased, origin = _split_at_creases(V, F)
+    creased, origin = split_at_creases(V, F)
     looks = _looks(pieces, creased)
     corner, order = _in_order_of_use(looks.F)
     low, high = V.min(axis=0), V.max(axis=0)
@@ -82,21 +80,6 @@ def pack(pieces: Sequence[Piece]) -> PackedMesh:
     n_vertices, n_faces = (np.bincount(who, minlength=n) for who in (owner, piece_of_face))
     facts = PackedFacts(n_vertices, n_faces, step, (low - high) / 2, width, looks.kind)
     return PackedMesh(zlib.compress(np.concatenate(blocks).tobytes(), 6), facts)
-
-
-def _split_at_creases(V: Floats, F: Ints) -> tuple[Ints, Ints]:
-    """Double vertices along creases: faces into the new vertices, and the old one of each."""
-    twin = edges(F).twin
-    normal = unit(area_vectors(V, F))
-    h = np.flatnonzero(twin > np.arange(len(twin)))
-    t = twin[h]
-    smooth = np.einsum("ij,ij->i", normal[h // 3], normal[t // 3]) > _SMOOTH
-    h, t = h[smooth], t[smooth]
-    rows, cols = np.concatenate([h, next_halfedge(h)]), np.concatenate([next_halfedge(t), t])
-    n, fan = connected(F.size, rows, cols)
-    origin = np.empty(n, np.int64)
-    origin[fan] = F.ravel()
-    return fan.reshape(-1, 3), origin
 
 
 @dataclass(frozen=True)

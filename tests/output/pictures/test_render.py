@@ -1,3 +1,4 @@
+import manifold3d
 import numpy as np
 import pytest
 
@@ -94,3 +95,15 @@ def test_an_open_sheet_is_lit_from_either_side():
     V = V[:, [0, 2, 1]]
     front, back = picture(V, F, line=0.0), picture(V, F[:, ::-1], line=0.0)
     assert np.abs(front - back).max() <= 2
+
+
+def test_a_flat_side_is_evenly_shaded_whatever_its_triangles():
+    turn = np.arange(120) * np.pi / 60
+    radius = np.where(np.arange(120) % 2, 14.0, 30.0)
+    ring = radius[:, None] * np.stack([np.cos(turn), np.sin(turn)], 1)
+    star = manifold3d.Manifold.extrude(manifold3d.CrossSection([ring]), 2.0).to_mesh64()
+    V, F = np.array(star.vert_properties, float)[:, [1, 2, 0]], np.array(star.tri_verts, np.int64)
+    row, column = np.indices((SIZE, SIZE)) - SIZE / 2
+    scene = scene_of(V, F, np.full((len(F), 3), 0.8), np.zeros(len(F), np.int64))
+    image = render(scene, view_of(V, Y, 0, 90), SIZE).astype(int)
+    assert np.ptp(image[np.hypot(row, column) < 0.4 * SIZE * 14 / 30], axis=0).max() <= 1
