@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats
+from meshjig.output.guide.latin import latin
 
 __all__ = [
     "BOTTOM",
@@ -48,7 +49,7 @@ class Document:
         self._pen: Any = Canvas(
             str(path), pagesize=(WIDTH * _POINT, HEIGHT * _POINT), invariant=1, pageCompression=1
         )
-        self._pen.setTitle(title)
+        self._pen.setTitle(title.encode("utf-8", "replace").decode())
         self._pen.setAuthor("meshjig")
         self._pen.setCreator("meshjig")
         self._pen.setSubject("How to put the puzzle together")
@@ -98,7 +99,7 @@ class Document:
         pen.setFont(_STRONG if strong else _REGULAR, size)
         pen.setFillGray(grey)
         draw = {"left": pen.drawString, "middle": pen.drawCentredString, "right": pen.drawRightString}[align]
-        draw(x * _POINT, (HEIGHT - y) * _POINT, _latin(words))
+        draw(x * _POINT, (HEIGHT - y) * _POINT, latin(words))
 
     def paragraph(self, x: float, y: float, width: float, words: str, size: float = 9.0) -> float:
         """Write words in lines no wider than a width; gives where the next line would stand."""
@@ -189,7 +190,7 @@ def text_width(words: str, size: float, *, strong: bool = False) -> float:
     """Give how wide a line would be, mm."""
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    return float(stringWidth(_latin(words), _STRONG if strong else _REGULAR, size)) / _POINT
+    return float(stringWidth(latin(words), _STRONG if strong else _REGULAR, size)) / _POINT
 
 
 def wrapped(words: str, size: float, width: float) -> list[str]:
@@ -207,8 +208,3 @@ def wrapped(words: str, size: float, width: float) -> list[str]:
 def tag_size(words: str, size: float) -> tuple[float, float]:
     """Give the width and height of a tag, mm."""
     return text_width(words, size, strong=True) + 0.55 * size / _POINT, 1.15 * size / _POINT
-
-
-def _latin(words: str) -> str:
-    """Replace what the built-in fonts of PDF readers don't have."""
-    return words.encode("cp1252", "replace").decode("cp1252")
