@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from meshjig.errors import InputError
 from meshjig.output import piece as named
 from meshjig.output.files.curve_files import Curves
@@ -122,7 +124,8 @@ class Puzzle:
 
         from meshjig.output.pictures.preview import draw_whole
 
-        return Image.fromarray(draw_whole(self.pieces, size))
+        said = self.report.get("up")
+        return Image.fromarray(draw_whole(self.pieces, size, None if said is None else np.array(said)))
 
     def _repr_html_(self) -> str:
         """Show the viewer in a notebook."""

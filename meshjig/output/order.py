@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.mesh import concatenate
-from meshjig.output.pictures.view import guess_up
+from meshjig.output.pictures.view import guess_up, up_of
 from meshjig.output.piece import Piece
 
 __all__ = ["Assembly", "assembly_of", "assembly_order"]
@@ -30,7 +31,7 @@ def assembly_of(pieces: Sequence[Piece], report: Mapping[str, Any]) -> Assembly:
     pieces : sequence of Piece
     report : mapping
         ``assembly``, if there, is a mapping with ``steps`` and ``verified``; else ``pieces`` are asked
-        for their ``neighbours``.
+        for their ``neighbours``. ``up`` is where the order goes.
 
     Returns
     -------
@@ -42,10 +43,13 @@ def assembly_of(pieces: Sequence[Piece], report: Mapping[str, Any]) -> Assembly:
         return Assembly(steps, bool(planned.get("verified", False)))
     listed = [entry["neighbours"] for entry in report.get("pieces", ())]
     neighbours = listed if len(listed) == len(pieces) else [[] for _ in pieces]
-    return Assembly(assembly_order(pieces, neighbours), False)
+    V, F, _, _ = concatenate(pieces)
+    return Assembly(assembly_order(pieces, neighbours, up_of(report, V, F)), False)
 
 
-def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]]) -> list[list[int]]:
+def assembly_order(
+    pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]], up: Floats | None = None
+) -> list[list[int]]:
     """Order pieces from the bottom up, each on what is there already.
 
     The lowest piece is first; next is always the lowest of those that touch a piece placed before. Where
@@ -55,6 +59,7 @@ def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]])
     ----------
     pieces : sequence of Piece
     neighbours : for each piece, the pieces it borders on, counted from 1
+    up : (3,) float64, unit; guessed where it is not given
 
     Returns
     -------
@@ -64,7 +69,8 @@ def assembly_order(pieces: Sequence[Piece], neighbours: Sequence[Sequence[int]])
     if not pieces:
         return []
     V, F, piece_of_vertex, _ = concatenate(pieces)
-    height = np.bincount(piece_of_vertex, V @ guess_up(V, F)) / np.bincount(piece_of_vertex)
+    upward = guess_up(V, F) if up is None else up
+    height = np.bincount(piece_of_vertex, V @ upward) / np.bincount(piece_of_vertex)
     lowest_first = np.argsort(height, kind="stable").tolist()
     row: list[int] = []
     waiting: list[tuple[float, int]] = []

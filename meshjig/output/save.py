@@ -11,10 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OptionError
+from meshjig.mesh.arrays import Floats
+from meshjig.mesh.mesh import concatenate
 from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
 from meshjig.output.lost_colours import lost_colours
 from meshjig.output.palette import by_palette
+from meshjig.output.pictures.view import axis_of, up_of
 from meshjig.output.piece import Piece, explode_pieces
 from meshjig.output.plates.printers import Nesting
 from meshjig.output.report import Report, write_report
@@ -57,7 +60,7 @@ def save_puzzle(
     directory : path
         An existing folder is replaced only when meshjig made it.
     pieces : sequence of Piece
-    report : mapping, what report.json holds
+    report : mapping, what report.json holds; ``up`` in it is which way pictures and GLB show it
     outputs : Outputs
     curves : Curves, the cuts, for SVG, OBJ and DXF
     core : sequence of Piece, what the puzzle is built up on, written to core/
@@ -80,14 +83,15 @@ def save_puzzle(
         raise OptionError(f"format: {unknown[0]!r} is not known", hint=f"use a list of {', '.join(FORMATS)}")
     report = _with_notes(report, lost_colours(pieces, formats, outputs.plate is not None))
     seconds = dict(report["timings_s"])
+    up = up_of(report, *concatenate(pieces)[:2]) if pieces else axis_of("y")
     source = report.get("input", {}).get("file")
     inputs = [source] if source else []
     with (
         replace_folder(directory, inputs=inputs) as folder,
-        _drawn(folder, pieces, outputs) as pictures,
+        _drawn(folder, pieces, outputs, up) as pictures,
     ):
         with _lap(seconds, "write"):
-            _write_meshes(folder, pieces, outputs)
+            _write_meshes(folder, pieces, outputs, up)
             _write_core(folder, core)
             _write_curves(folder, curves or Curves())
         plates: dict[str, int] | None = None
@@ -122,27 +126,27 @@ def _with_notes(report: Mapping[str, Any], notes: Sequence[str]) -> Mapping[str,
 
 
 @contextmanager
-def _drawn(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> Iterator[Background]:
+def _drawn(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> Iterator[Background]:
     """Draw pictures beside the caller, who asks for the seconds they took once they are needed."""
     small = sum(len(piece.F) for piece in pieces) < FILES_WORTH_A_CHILD
     none = not (outputs.preview or outputs.turntable)
-    child = Background(_draw, folder, list(pieces), outputs, alone=small or none)
+    child = Background(_draw, folder, list(pieces), outputs, up, alone=small or none)
     try:
         yield child
     finally:
         child.cancel()
 
 
-def _draw(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> dict[str, float]:
+def _draw(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> dict[str, float]:
     from meshjig.output.pictures.preview import write_preview, write_turntable
 
     seconds: dict[str, float] = {}
     if outputs.preview:
         with _lap(seconds, "preview"):
-            write_preview(folder / "preview.png", pieces, apart=outputs.explode)
+            write_preview(folder / "preview.png", pieces, up, apart=outputs.explode)
     if outputs.turntable:
         with _lap(seconds, "turntable"):
-            write_turntable(folder / "turntable.gif", pieces)
+            write_turntable(folder / "turntable.gif", pieces, up)
     return seconds
 
 
@@ -171,7 +175,7 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
     seconds[name] = time.perf_counter() - start
 
 
-def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> None:
+def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> None:
     from meshjig.output.files.glb import write_glb
     from meshjig.output.files.mesh_files import write_obj, write_ply, write_stl
 
@@ -192,8 +196,8 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs) -> No
         write_obj(folder / "puzzle.obj", by_palette(pieces))
     if "glb" in formats:
         shown = by_palette(pieces)
-        write_glb(folder / "puzzle.glb", shown)
-        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode))
+        write_glb(folder / "puzzle.glb", shown, up)
+        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode), up)
 
 
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:

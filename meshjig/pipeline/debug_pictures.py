@@ -43,6 +43,7 @@ class StagePictures:
 
     def __init__(self, folder: str | os.PathLike[str] | None) -> None:
         self.folder = None if folder is None else Path(folder)
+        self.up: Floats | None = None  # guessed where nobody sets it
         if self.folder is None:
             return
         try:
@@ -100,7 +101,7 @@ class StagePictures:
             self._save(4, *map(self._seen, looks))
 
     def _view(self, V: Floats, F: Ints, side: int = 0) -> View:
-        return view_of(V, guess_up(V, F), *_SIDES[side])
+        return view_of(V, guess_up(V, F) if self.up is None else self.up, *_SIDES[side])
 
     def _seen(self, look: Look, side: int = 0) -> Picture:
         return self._drawn(look, self._view(look[0], look[1], side))

@@ -9,10 +9,10 @@ from meshjig.check import CoreChecks, judge_core
 from meshjig.extras import LETTERING, CoreShape, engrave, make_core
 from meshjig.extras.core import CoreFacts
 from meshjig.extras.engrave import LabelFacts
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.output.pictures.view import guess_up
 from meshjig.output.piece import Piece
 from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
@@ -65,12 +65,13 @@ def engrave_pieces(
     return pieces.with_solids(all_printable(solids)), facts
 
 
-def build_core(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
+def build_core(surface: Mesh, sheets: Shell, options: Options, up: Floats) -> Core | None:
     """Make the body on which the puzzle is built up, where it is asked for, in parts that fit the plate.
 
     Parameters
     ----------
     surface, sheets, options : as for `engrave_pieces`
+    up : (3,) float64, unit
 
     Raises
     ------
@@ -87,7 +88,7 @@ def build_core(surface: Mesh, sheets: Shell, options: Options) -> Core | None:
             clearance=options.clearance,
             wall=CORE_WALLS * options.min_wall,
             min_wall=options.min_wall,
-            up=guess_up(surface.V, surface.F),
+            up=up,
             plate=None if plate is None else (plate.width, plate.depth, plate.height),
         ),
     )

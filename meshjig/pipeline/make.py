@@ -31,6 +31,7 @@ from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import chart, clean_scan
 from meshjig.pipeline.report import Made, assemble_report
+from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.verify import verify
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
@@ -82,6 +83,7 @@ def make_puzzle(
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
+        up = pictures.up = up_direction(options.up, scan.source, scan.mesh)
         longest = _longest_edge(scan.mesh, options)
         surface = Mesh(*refine_long_edges(scan.mesh.V, scan.mesh.F, longest))
     small = len(surface.F) < SOLIDS_WORTH_A_CHILD
@@ -106,7 +108,7 @@ def make_puzzle(
             pieces, kerf_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
             pieces, labels = engrave_pieces(pieces, surface, sheets, options)
-            core = build_core(surface, sheets, options)
+            core = build_core(surface, sheets, options, up)
     except BaseException:
         beside.cancel()
         raise
@@ -121,6 +123,7 @@ def make_puzzle(
         made = Made(
             options=options,
             scan=scan,
+            up=up,
             layout=layout,
             on_surface=parts if options.clearance_method != "solid" else None,
             sheets=sheets.facts,

@@ -50,6 +50,7 @@ class Made:
 
     options: Options
     scan: Scan
+    up: Floats  # (3,), unit
     layout: Layout
     on_surface: Parts | None  # the surface as it was cut with the gap; None where the solids were
     sheets: ShellFacts
@@ -84,6 +85,7 @@ def assemble_report(made: Made) -> Report:
         "meshjig": meshjig_version(),
         "kind": "puzzle",
         "input": made.scan.facts.as_dict(),
+        "up": made.up.tolist(),
         "options": options.model_dump(),
         **_layout(made.layout),
         "cut": asdict(cut.facts) if cut.facts else {},

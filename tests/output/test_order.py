@@ -71,3 +71,9 @@ def test_a_plan_in_the_report_wins_and_says_whether_it_is_verified():
     planned = {"steps": [[3, 2], [1]], "verified": True}
     assert assembly_of(pieces, {**report, "assembly": planned}) == ([[3, 2], [1]], True)
     assert sorted(piece for step in assembly_of(pieces, {}).steps for piece in step) == [1, 2, 3]
+
+
+def test_the_order_goes_the_way_that_the_report_says_is_up():
+    pieces = stack([[0, 0, 0], [12, 2, 1], [24, 1, 2]])
+    assert assembly_of(pieces, {"up": [-1, 0, 0]}).steps == [[3], [2], [1]]
+    assert assembly_of(pieces, {"up": [0, 1, 0]}).steps == [[1], [3], [2]]

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 
 import meshjig
+from meshjig.output.files.read_pieces import read_pieces
 from tests.meshes import open_cup, sphere, two_components
 
 
@@ -38,6 +39,19 @@ def test_saving_and_loading_gives_the_same_puzzle(cup, tmp_path):
         assert a.mesh.volume == pytest.approx(b.mesh.volume, rel=1e-6)
     neighbours = [[piece["neighbours"] for piece in p.report["pieces"]] for p in (again, cup)]
     assert neighbours[0] == neighbours[1]
+
+
+def test_what_is_asked_to_be_up_is_up_in_files_that_have_a_way_up(tmp_path):
+    V, F = sphere(500)
+    puzzle = meshjig.make_puzzle((V * [1, 1, 2], F), size=60, pieces=6, up="z")
+    assert puzzle.report["up"] == [0, 0, 1]
+    folder = puzzle.save(tmp_path / "egg", formats=("glb", "ply"), preview=False, viewer=False, guide=False)
+    low, high = trimesh.load_scene(folder / "puzzle.glb").bounds
+    np.testing.assert_allclose(1000 * (high - low), [30, 60, 30], rtol=0.02)
+    (_, W, G), *_ = read_pieces(folder / "puzzle.glb")
+    np.testing.assert_allclose(
+        W[G].mean(axis=(0, 1)), puzzle.pieces[0].mesh.triangles.mean(axis=(0, 1)), atol=1e-3
+    )
 
 
 @pytest.mark.parametrize("source", ["arrays", "trimesh", "path"])

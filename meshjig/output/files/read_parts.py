@@ -11,6 +11,7 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.validated import validated, weld
+from meshjig.output.files.glb import MODEL
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.formats import gltf_shortfall
 from meshjig.scan.reading import load_by_trimesh
@@ -53,6 +54,8 @@ def read_own_obj(path: Path) -> list[NamedPiece]:
 def read_glb(path: Path) -> list[NamedPiece]:
     """Read the nodes of a GLB, each where the scene puts it; metres in the file become mm.
 
+    Where meshjig wrote it, the pieces are where they are in the other files: not turned to have y upward.
+
     Raises
     ------
     InputError
@@ -63,7 +66,8 @@ def read_glb(path: Path) -> list[NamedPiece]:
         raise InputError(f"{path} is cut off: {shortfall}", hint="export it again")
     try:
         scene = load_by_trimesh(path, PictureReader(), force="scene")
-        placed = {name: scene.graph[name] for name in sorted(scene.graph.nodes_geometry)}
+        whole = MODEL if MODEL in scene.graph.nodes else scene.graph.base_frame
+        placed = {name: scene.graph.get(name, whole) for name in sorted(scene.graph.nodes_geometry)}
         parts = [(name, M, scene.geometry[key]) for name, (M, key) in placed.items()]
         arrays = [
             (

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from meshjig.errors import OutputError
 from meshjig.mesh.arrays import Bools
+from meshjig.mesh.mesh import concatenate
 from meshjig.output.guide.pages import LEFT, RIGHT, WIDTH, Document, Page, text_width
 from meshjig.output.guide.parts_pages import outlines, parts_pages
 from meshjig.output.guide.proxy import join_pieces
@@ -19,6 +20,7 @@ from meshjig.output.guide.steps_pages import steps_pages
 from meshjig.output.guide.table_pages import table_pages
 from meshjig.output.order import assembly_of
 from meshjig.output.pictures.preview import draw_whole
+from meshjig.output.pictures.view import up_of
 from meshjig.output.piece import Piece
 from meshjig.output.report import title_of
 
@@ -57,8 +59,8 @@ def write_guide(
     path : Path
     pieces : sequence of Piece, at least one
     report : mapping
-        ``input`` gives the title, ``pieces`` the neighbours, ``assembly`` the order; what is missing is
-        left out, or made.
+        ``input`` gives the title, ``pieces`` the neighbours, ``assembly`` the order, ``up`` which way
+        pictures show it; what is missing is left out, or made.
     plates : mapping, optional
         The plate that holds each piece, by the piece's name.
     cover : callable, optional
@@ -72,6 +74,8 @@ def write_guide(
     """
     if not pieces:
         raise OutputError("a puzzle without pieces can't be shown", hint="make one first")
+    V, F, _, _ = concatenate(pieces)
+    up = up_of(report, V, F)
     assembly = assembly_of(pieces, report)
     on_plate = [(plates or {}).get(piece.name) for piece in pieces]
     listed = report.get("pieces", ())
@@ -79,9 +83,9 @@ def write_guide(
     @functools.cache
     def picture() -> NDArray[np.uint8]:
         given = None if cover is None else cover()
-        return trimmed(draw_whole(pieces) if given is None else given)
+        return trimmed(draw_whole(pieces, up=up) if given is None else given)
 
-    joined = join_pieces(pieces)
+    joined = join_pieces(pieces, up)
     chapters = [
         ("What you have", parts_pages(outlines(joined), on_plate)),
         ("Putting it together", steps_pages(joined, assembly.steps, picture)),

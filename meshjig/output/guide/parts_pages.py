@@ -139,7 +139,7 @@ def outlines(joined: JoinedPieces) -> list[PieceOutline]:
     """
     import shapely
 
-    V, F, piece_of_vertex, outer, outward = joined
+    V, F, piece_of_vertex, outer, outward, _ = joined
     rings: list[Floats | None] = [None] * len(outward)
     for loop in _rims(F[outer], len(V)):
         piece = int(piece_of_vertex[loop[0]])

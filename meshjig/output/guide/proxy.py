@@ -35,6 +35,7 @@ class JoinedPieces(NamedTuple):
     piece_of_vertex: Ints  # (n,), counted from 0
     outer: Bools  # (m,), the face is on the outer side of its piece
     outward: Floats  # (p, 3), where the outer sides face
+    up: Floats  # (3,)
 
 
 class PlacedFaces(NamedTuple):
@@ -69,13 +70,13 @@ class ProxyModel:
         return PlacedFaces(self._made[last], int(self.first_face[step + 1]))
 
 
-def join_pieces(pieces: Sequence[Piece]) -> JoinedPieces:
-    """Join pieces, at least one, and find their outer sides."""
+def join_pieces(pieces: Sequence[Piece], up: Floats | None = None) -> JoinedPieces:
+    """Join pieces, at least one, and find their outer sides; and which way is up, where that is not told."""
     V, F, piece_of_vertex, piece_of_face = concatenate(pieces)
     outward = _outward(pieces)
     A, n = area_vectors(V, F), unit(outward)[piece_of_face]
     outer = np.einsum("ij,ij->i", A, n) > _UPRIGHT * np.sqrt(np.einsum("ij,ij->i", A, A))
-    return JoinedPieces(V, F, piece_of_vertex, outer, outward)
+    return JoinedPieces(V, F, piece_of_vertex, outer, outward, guess_up(V, F) if up is None else up)
 
 
 def proxy_model(joined: JoinedPieces, steps: Sequence[Sequence[int]]) -> ProxyModel:
@@ -92,7 +93,7 @@ def proxy_model(joined: JoinedPieces, steps: Sequence[Sequence[int]]) -> ProxyMo
     ProxyModel
         Without the pieces that are in no step.
     """
-    V, F, piece_of_vertex, outer_face, outward = joined
+    V, F, piece_of_vertex, outer_face, outward, up = joined
     turn = _turns(len(outward), steps)
     outer = np.ones(len(V), bool)
     outer[F] = outer_face[:, None]
@@ -113,7 +114,7 @@ def proxy_model(joined: JoinedPieces, steps: Sequence[Sequence[int]]) -> ProxyMo
         W[G].mean(axis=1),
         A,
         np.einsum("ij,ij->i", unit(A), unit(outward)[piece]),
-        guess_up(V, F),
+        up,
         first_vertex,
         first_face,
     )

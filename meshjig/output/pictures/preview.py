@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.errors import OptionError, OutputError
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.mesh import concatenate
 from meshjig.output.pictures.render import render
 from meshjig.output.pictures.scene import scene_of_pieces, shifted
-from meshjig.output.pictures.view import View, axis_of, guess_up, view_of
+from meshjig.output.pictures.view import View, guess_up, view_of
 from meshjig.output.piece import Piece, exploded
 
 __all__ = ["draw_whole", "write_preview", "write_turntable"]
@@ -23,7 +24,7 @@ _LEAST = 16  # pixels
 
 
 def write_preview(
-    path: Path, pieces: Sequence[Piece], up: str = "auto", size: int = 1600, apart: float = 0.6
+    path: Path, pieces: Sequence[Piece], up: Floats | None = None, size: int = 1600, apart: float = 0.6
 ) -> None:
     """Draw a square sheet of four: above, the puzzle from two sides; below, the same exploded.
 
@@ -31,20 +32,14 @@ def write_preview(
     ----------
     path : Path, a PNG
     pieces : sequence of Piece, at least one
-    up : str
-        The axis that points up: x, y, z, -x, -y, -z, or ``auto`` (see ``guess_up``).
+    up : (3,) float64, unit; guessed where it is not given, see `guess_up`
     size : int, pixels along each side of the sheet
     apart : float, how much farther from the middle pieces stand when exploded
-
-    Raises
-    ------
-    OptionError
-        No such axis.
     """
     from PIL import Image
 
     V, F, piece_of_vertex, _ = concatenate(pieces)
-    upward = guess_up(V, F) if up == "auto" else axis_of(up)
+    upward = guess_up(V, F) if up is None else up
     sheet = np.full((size, size, 3), 255, np.uint8)
     half = size // 2
     whole = scene_of_pieces(pieces)
@@ -61,13 +56,16 @@ def write_preview(
     Image.fromarray(sheet).save(path, optimize=False, compress_level=6)
 
 
-def write_turntable(path: Path, pieces: Sequence[Piece], frames: int = 36, size: int = 480) -> None:
+def write_turntable(
+    path: Path, pieces: Sequence[Piece], up: Floats | None = None, frames: int = 36, size: int = 480
+) -> None:
     """Draw a puzzle from all around and write the pictures as a GIF that runs forever.
 
     Parameters
     ----------
     path : Path
     pieces : sequence of Piece, at least one
+    up : (3,) float64, unit; guessed where it is not given
     frames : int, pictures once around
     size : int, pixels along each side
 
@@ -90,9 +88,9 @@ def write_turntable(path: Path, pieces: Sequence[Piece], frames: int = 36, size:
 
     V, F, _, _ = concatenate(pieces)
     scene = scene_of_pieces(pieces)
-    up = guess_up(V, F)
+    upward = guess_up(V, F) if up is None else up
     outline = V[ConvexHull(V).vertices]
-    views = [view_of(outline, up, _FRONT[0] + 360 * k / frames, _FRONT[1]) for k in range(frames)]
+    views = [view_of(outline, upward, _FRONT[0] + 360 * k / frames, _FRONT[1]) for k in range(frames)]
     widest = 1.06 * max(view.half for view in views)
     still = np.mean([view.centre for view in views], axis=0)
     pictures = [render(scene, View(view.eye, view.axes, still, widest), size) for view in views]
@@ -104,13 +102,14 @@ def write_turntable(path: Path, pieces: Sequence[Piece], frames: int = 36, size:
     first.save(path, save_all=True, append_images=rest, duration=_ONCE_AROUND // frames, loop=0)
 
 
-def draw_whole(pieces: Sequence[Piece], size: int = 800) -> NDArray[np.uint8]:
+def draw_whole(pieces: Sequence[Piece], size: int = 800, up: Floats | None = None) -> NDArray[np.uint8]:
     """Draw a puzzle from the side from which previews show it first.
 
     Parameters
     ----------
     pieces : sequence of Piece, at least one
     size : int, pixels along each side
+    up : (3,) float64, unit; guessed where it is not given
 
     Returns
     -------
@@ -129,5 +128,5 @@ def draw_whole(pieces: Sequence[Piece], size: int = 800) -> NDArray[np.uint8]:
         raise OptionError(f"plot: {size} pixels make no picture", hint=f"use {_LEAST} or more")
     V, F, _, _ = concatenate(pieces)
     scene = scene_of_pieces(pieces)
-    view = view_of(V, guess_up(V, F), *_FRONT)
+    view = view_of(V, guess_up(V, F) if up is None else up, *_FRONT)
     return render(scene, View(view.eye, view.axes, view.centre, 1.08 * view.half), size)

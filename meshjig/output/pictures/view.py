@@ -1,6 +1,8 @@
 """Where a picture is taken from: which way is up, and what fits into the frame."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -9,7 +11,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, unit
 from meshjig.mesh.rays import Floats32, Numbers
 
-__all__ = ["View", "axis_of", "guess_up", "view_of"]
+__all__ = ["View", "axis_of", "guess_up", "up_of", "view_of"]
 
 _DISTANCE = 4.5  # of the eye, in radii of the model: a mild perspective
 
@@ -88,6 +90,23 @@ def guess_up(V: Floats, F: Ints) -> Floats:
             best, up = score, -(N * base[:, None]).sum(axis=0)
     up = unit(up)
     return np.round(up) if np.abs(up).max() > 0.99 else up  # a base is seldom tilted by less than 8 degrees
+
+
+def up_of(report: Mapping[str, Any], V: Floats, F: Ints) -> Floats:
+    """Give which way a puzzle is up: as its report says, else as its shape suggests.
+
+    Parameters
+    ----------
+    report : mapping; ``up``, if there, is a vector
+    V : (n, 3) float64, mm, of all pieces
+    F : (m, 3) int64
+
+    Returns
+    -------
+    (3,) float64, a unit vector
+    """
+    said = report.get("up")
+    return guess_up(V, F) if said is None else unit(np.array(said, np.float64))
 
 
 def _common_directions(normal: Floats, size: Floats) -> Floats:

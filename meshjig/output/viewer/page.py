@@ -19,7 +19,7 @@ from meshjig.errors import InputError, OutputError
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.mesh import concatenate
 from meshjig.output.order import assembly_of
-from meshjig.output.pictures.view import guess_up, view_of
+from meshjig.output.pictures.view import up_of, view_of
 from meshjig.output.piece import Piece, explosion
 from meshjig.output.report import report_text, title_of
 from meshjig.output.viewer.packed_mesh import pack
@@ -48,8 +48,8 @@ def write_viewer(
     path : Path
     pieces : sequence of Piece, at least one
     report : mapping
-        ``input`` gives the title, ``pieces`` areas and neighbours, ``assembly`` the order; what is
-        missing is measured, left out, or made.
+        ``input`` gives the title, ``pieces`` areas and neighbours, ``assembly`` the order, ``up`` which
+        way it stands; what is missing is measured, left out, or made.
     plates : mapping, optional
         The plate that holds each piece, by the piece's name.
     core : sequence of Piece
@@ -128,7 +128,7 @@ def _page(
 
 def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[str, int]) -> dict[str, object]:
     V, F, piece_of_vertex, _ = concatenate(pieces)
-    up = guess_up(V, F)
+    up = up_of(report, V, F)
     view = view_of(V, up, *_FRONT)
     off = V - (V.min(axis=0) + V.max(axis=0)) / 2
     height = off @ up

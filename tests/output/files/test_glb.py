@@ -5,10 +5,13 @@ import json
 import struct
 
 import numpy as np
+import pytest
 import trimesh
 from PIL import Image
 
+from meshjig.mesh.measure import mesh_volume
 from meshjig.output.files.glb import write_glb
+from meshjig.output.files.read_parts import read_glb
 from meshjig.output.pictures.colours import to_linear, to_srgb
 from meshjig.output.piece import Piece
 from meshjig.output.scan_picture import Picture
@@ -98,3 +101,33 @@ def test_a_picture_that_pieces_share_is_written_once(tmp_path):
     picture = Image.open(io.BytesIO(data[view["byteOffset"] :][: view["byteLength"]]))
     np.testing.assert_array_equal(np.asarray(picture), piece.texture.picture.pixels)
     assert len(header["meshes"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("up", "turned"),
+    [
+        ([0, 1, 0], [10, 20, 30]),
+        ([0.1, 0.2, 0.9], [10, 30, -20]),
+        ([1, 0, 0], [-20, 10, 30]),
+        ([0, -1, 0], [-10, -20, 30]),
+    ],
+)
+def test_y_is_upward_whatever_is_up_and_pieces_are_read_back_as_they_were(tmp_path, up, turned):
+    write_glb(tmp_path / "puzzle.glb", COLOURED, np.array(up, float))
+    scene = trimesh.load_scene(tmp_path / "puzzle.glb", process=False)
+    for piece, (name, V, F) in zip(COLOURED, read_glb(tmp_path / "puzzle.glb"), strict=True):
+        np.testing.assert_allclose(V[F].mean(axis=(0, 1)), piece.V[piece.F].mean(axis=(0, 1)), atol=1e-3)
+        assert mesh_volume(V, F) == pytest.approx(mesh_volume(piece.V, piece.F), rel=1e-4)
+        transform, _ = scene.graph[name]
+        np.testing.assert_allclose(transform[:3, :3] @ [10, 20, 30], turned, atol=1e-9)
+        assert np.linalg.det(transform[:3, :3]) == pytest.approx(1)
+
+
+def test_files_of_other_makers_are_read_as_their_scene_puts_them(tmp_path):
+    scene = trimesh.Scene()
+    half = np.diag([0.001, -0.001, -0.001, 1.0])
+    scene.add_geometry(trimesh.creation.box((10, 20, 30)), node_name="a", transform=half)
+    (tmp_path / "a.glb").write_bytes(scene.export(file_type="glb"))
+    ((name, V, _),) = read_glb(tmp_path / "a.glb")
+    assert name == "a"
+    np.testing.assert_allclose(np.ptp(V, axis=0), [10, 20, 30], atol=1e-3)

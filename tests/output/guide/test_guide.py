@@ -170,7 +170,7 @@ def test_equal_puzzles_give_equal_bytes_without_a_date(tmp_path, few):
 def test_a_puzzle_of_which_little_is_known_has_a_guide_too(tmp_path):
     write_guide(tmp_path / "guide.pdf", balls([[0, 0, 0]]), {"input": {"file": "猫 é.obj"}})
     cover, *pages = pages_of(tmp_path / "guide.pdf")
-    assert cover[0] == "? é"
+    assert cover[0] == "Mao é"
     assert "Who borders on whom" not in cover
     assert len(pages) == 2
 
@@ -406,3 +406,10 @@ def test_lines_are_no_wider_than_asked_and_lose_nothing(width):
     lines = wrapped(words, 8, width)
     assert " ".join(lines) == words
     assert all(text_width(line, 8) <= width or " " not in line for line in lines)
+
+
+def test_steps_are_seen_with_up_where_the_puzzle_says(globe):
+    pieces, _ = globe
+    model = proxy_model(join_pieces(pieces, np.array([0.0, 0, 1])), [[k + 1 for k in range(len(pieces))]])
+    for place in cameras(model):
+        assert place.view.axes[1] @ [0, 0, 1] > 0.5

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
-from meshjig.output.pictures.view import axis_of, guess_up, view_of
+from meshjig.output.pictures.view import axis_of, guess_up, up_of, view_of
 from tests.meshes import closed_cylinder, half_sphere, sphere
 
 
@@ -52,3 +52,9 @@ def test_a_view_is_upright_and_filled(up, azimuth):
     assert seen[:, 2].min() > 0
     place = (seen[:, :2] / seen[:, 2:] - view.centre) / view.half
     assert np.abs(place).max() == pytest.approx(1)
+
+
+def test_a_report_says_what_is_up_before_the_shape_does():
+    V, F = bust(np.array([0.0, 0, 1]))
+    np.testing.assert_array_equal(up_of({"up": [2.0, 0, 0]}, V, F), [1, 0, 0])
+    np.testing.assert_allclose(up_of({}, V, F), [0, 0, 1], atol=0.03)
