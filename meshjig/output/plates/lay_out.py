@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from meshjig.errors import OptionError
 from meshjig.mesh.arrays import Floats
 from meshjig.mesh.mesh import Mesh
 from meshjig.output.piece import Piece
@@ -79,18 +80,22 @@ def lay_out(
     Raises
     ------
     OptionError
-        ``nest`` is tight, and spyrrow is not installed.
+        No piece fits; or ``nest`` is tight, and spyrrow is not installed.
     """
     lying, left_out = [], []
+    sides: list[tuple[float, ...]] = []  # of those left out
     for piece in pieces:
         pose = lying_pose(piece.V, piece.F, piece.outer_normal)
         V = _on_ground(piece.V @ pose.R.T)
         if V[:, 2].max() <= plate.height and fits(V[:, :2], plate, gap):
             lying.append(_Lying(piece, V, pose))
         else:
-            left_out.append(LeftOut(piece.name, None, _too_large(piece, V, plate)))
+            sides.append(_sides(V))
+            left_out.append(LeftOut(piece.name, None, _too_large(piece.name, sides[-1], plate)))
     if not lying:
-        return [], left_out
+        if left_out:
+            raise _none_fits(min(sides), plate, gap)
+        return [], []
     shadows = [footprint(one.V, one.piece.F) for one in lying]
     if nest == "tight":
         from meshjig.output.plates.nest import nest as nested
@@ -127,8 +132,25 @@ def _placed(lying: _Lying, shadow: Any, where: Placements, i: int) -> PlacedPiec
     return PlacedPiece(moved, int(where.plate[i]) + 1, pose, outline)
 
 
-def _too_large(piece: Piece, V: Floats, plate: Plate) -> str:
+def _sides(V: Floats) -> tuple[float, ...]:
+    """Give the sides of the least box around a piece as it lies, mm, the longer of the lower two first."""
     ring = convex_ring(V[:, :2])
-    sides = *size_at(ring, np.array([least_rectangle(ring)]))[0], V[:, 2].max()
-    size = " x ".join(f"{side:.0f}" for side in sides)
-    return f"{piece.name} ({size} mm) fits no plate of {plate}: use a larger --plate, or ask for more pieces"
+    return *sorted(size_at(ring, np.array([least_rectangle(ring)]))[0], reverse=True), float(V[:, 2].max())
+
+
+def _size(sides: tuple[float, ...]) -> str:
+    return " x ".join(f"{side:.0f}" for side in sides)
+
+
+def _too_large(name: str, sides: tuple[float, ...], plate: Plate) -> str:
+    return (
+        f"{name} ({_size(sides)} mm) fits no plate of {plate}: use a larger --plate, or ask for more pieces"
+    )
+
+
+def _none_fits(smallest: tuple[float, ...], plate: Plate, gap: float) -> OptionError:
+    return OptionError(
+        f"plate: no piece fits a plate of {plate}, with {gap:g} mm around each; "
+        f"the smallest is {_size(smallest)} mm",
+        hint="use a larger --plate, or ask for more pieces",
+    )

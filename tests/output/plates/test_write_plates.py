@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 from meshjig.check import is_closed_as_stl
+from meshjig.errors import OptionError
 from meshjig.mesh.measure import mesh_volume
 from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.piece import Piece
@@ -125,9 +126,19 @@ def test_a_piece_too_large_for_the_plate_is_named_with_its_size(tmp_path):
 
 def test_a_piece_too_high_for_the_printer_is_named():
     high = Piece("piece_007", *bent(30, 30, 0.05, 0.05), (0, 0, 0))
-    placed, left_out = lay_out([high], Plate(200, 200, 5))
-    assert placed == []
+    flat = Piece("piece_008", *bent(30, 30), (0, 0, 0))
+    placed, left_out = lay_out([high, flat], Plate(200, 200, 5))
+    assert [one.piece.name for one in placed] == ["piece_008"]
     assert [one.name for one in left_out] == ["piece_007"]
+
+
+@pytest.mark.parametrize("side", [12, 20, 38, 39.9])
+def test_a_plate_on_which_no_piece_fits_is_refused_before_anything_is_written(tmp_path, side):
+    pieces = [Piece(f"piece_{k}", *bent(30, 30 + k), (0, 0, 0)) for k in range(3)]
+    with pytest.raises(OptionError, match=r"no piece fits a plate of .* the smallest is 30 x 30 x 2 mm"):
+        write_plates(tmp_path, pieces, Plate(side, side))
+    assert list(tmp_path.iterdir()) == []
+    assert [fact.plate for fact in write_plates(tmp_path, pieces, Plate(40.1, 40.1))] == [1, None, None]
 
 
 def test_the_colours_of_a_scan_come_along():
