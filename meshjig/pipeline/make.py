@@ -24,7 +24,7 @@ from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
-from meshjig.output.plates.printers import estimate
+from meshjig.output.plates.material import bulk_of, material_of
 from meshjig.output.texture import textures
 from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
@@ -141,7 +141,8 @@ def make_puzzle(
     dressed = _dressed(made)
     pictures.pieces(dressed)
     measured = {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
-    report |= measured | {"material": estimate(dressed, options.process)}
+    bulk = bulk_of(dressed).plus(bulk_of(core.parts if core else []))
+    report |= measured | {"material": material_of(bulk, options.process)}
     curves = Curves(*cut_curves(layout.cut, layout.outlines)) if options.curves else Curves()
     return Puzzle(dressed, report, curves, core.parts if core else [])
 

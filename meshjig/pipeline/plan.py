@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.measure import face_areas
+from meshjig.mesh.measure import face_areas, mesh_volume
+from meshjig.mesh.mesh import Mesh
 from meshjig.options import Options
 from meshjig.output.plates.lay_out import GAP
-from meshjig.output.plates.printers import estimate_plates, estimate_volume, parse_plate
+from meshjig.output.plates.material import Bulk, bulk_of_core, bulk_of_surface, material_of
+from meshjig.output.plates.printers import estimate_plates, parse_plate
 from meshjig.output.report import Report
+from meshjig.pipeline.extras import CORE_WALLS
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 
@@ -33,7 +36,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "model": {"faces", "size_mm": [x, y, z], "area_mm2"}; "layout"; "pieces": int, asked for;
         "piece_size_mm": edge of a square as large as a piece; "thickness_mm"; "clearance_mm";
         "plate": str; "plates": int; "material": {"volume_mm3", "grams", "hours"}, see
-        `meshjig.output.plates.printers.estimate_volume`.
+        `meshjig.output.plates.material.material_of`.
 
     Raises
     ------
@@ -57,5 +60,13 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "clearance_mm": options.clearance,
         "plate": str(plate),
         "plates": estimate_plates(n, area, plate, GAP),
-        "material": estimate_volume(area, options.thickness, options.process),
+        "material": material_of(_bulk(surface, area, size, options), options.process),
     }
+
+
+def _bulk(surface: Mesh, area: float, size: float, options: Options) -> Bulk:
+    """Tell what pieces of a size (mm), and the core where it is asked for, will be."""
+    pieces = bulk_of_surface(area, options.thickness, size)
+    if not options.core:
+        return pieces
+    return pieces.plus(bulk_of_core(area, abs(mesh_volume(*surface)), CORE_WALLS * options.min_wall))

@@ -2,19 +2,13 @@ import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
-from meshjig.options import PROCESSES
-from meshjig.output.piece import Piece
 from meshjig.output.plates.pack import pack
 from meshjig.output.plates.printers import (
     PRINTERS,
-    RATES,
     Plate,
-    estimate,
     estimate_plates,
-    estimate_volume,
     parse_plate,
 )
-from tests.meshes import creased_box, sphere
 from tests.output.plates.test_pack import tile
 
 
@@ -45,31 +39,6 @@ def test_a_printers_plate_reads_as_its_size(plate):
 def test_what_is_no_plate_is_told_with_what_would_be(text):
     with pytest.raises(OptionError, match=r"plate: .*WIDTHxDEPTH"):
         parse_plate(text)
-
-
-def test_every_process_has_its_rate():
-    assert set(RATES) == set(PROCESSES)
-
-
-def test_the_estimate_is_for_the_volume_of_all_pieces():
-    pieces = [Piece("a", *creased_box(300), (0, 0, 0)), Piece("b", *sphere(5000), (0, 0, 0))]
-    found = estimate(pieces, "fdm")
-    assert found["volume_mm3"] == pytest.approx(100**3 + 523_600, rel=0.01)
-    half = estimate(pieces[:1], "fdm")
-    assert found["hours"] / half["hours"] == pytest.approx(1.5236, rel=0.01)
-
-
-def test_a_hundred_pieces_two_mm_thick_of_a_bunny_as_sliced():
-    """PrusaSlicer with 0.2 mm layers and supports: 224 cm3 of PLA; 30 h at 60 mm/s, 20 h at 170 mm/s."""
-    found = estimate_volume(49_000, 2.0, "fdm")
-    assert found["volume_mm3"] == 98_000
-    assert found["grams"] == pytest.approx(224 * 1.24, rel=0.05)
-    assert 20 < found["hours"] < 30
-
-
-def test_own_processes_count_as_fdm_and_what_is_cut_takes_no_printing():
-    assert estimate_volume(100, 2, "my printer") == estimate_volume(100, 2, "fdm")
-    assert estimate_volume(100, 2, "foam")["hours"] is None
 
 
 @pytest.mark.parametrize("n", [1, 20, 100, 300])
