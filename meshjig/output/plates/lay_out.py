@@ -29,6 +29,7 @@ from meshjig.solid.printable import printable
 __all__ = ["GAP", "LeftOut", "PlacedPiece", "lay_out"]
 
 GAP = 5.0  # mm; room for a brim
+_ADVICE = "use a larger --plate, or ask for more pieces"
 
 
 @dataclass(frozen=True)
@@ -143,14 +144,12 @@ def _size(sides: tuple[float, ...]) -> str:
 
 
 def _too_large(name: str, sides: tuple[float, ...], plate: Plate) -> str:
-    return (
-        f"{name} ({_size(sides)} mm) fits no plate of {plate}: use a larger --plate, or ask for more pieces"
-    )
+    return f"{name} ({_size(sides)} mm) fits no plate of {plate}: {_ADVICE}"
 
 
 def _none_fits(smallest: tuple[float, ...], plate: Plate, gap: float) -> OptionError:
     return OptionError(
         f"plate: no piece fits a plate of {plate}, with {gap:g} mm around each; "
         f"the smallest is {_size(smallest)} mm",
-        hint="use a larger --plate, or ask for more pieces",
+        hint=_ADVICE,
     )
