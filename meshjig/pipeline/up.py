@@ -44,5 +44,5 @@ def up_direction(up: str, source: Source, surface: Mesh) -> Floats:
     -------
     (3,) float64, a unit vector
     """
-    said = getattr(source, "up", None) if up == AUTO else up
+    said = source.up if up == AUTO else up
     return axis_of(said) if said else guess_up(surface.V, surface.F)

@@ -1,22 +1,13 @@
 """Which way is up."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
 from meshjig.mesh.mesh import Mesh
 from meshjig.pipeline.up import up_axis, up_direction
-from meshjig.scan.source import Source, Visual
+from meshjig.scan.source import Source
 from tests.meshes import sphere
-
-
-@dataclass(frozen=True)
-class _Told(Source):
-    """A source whose file says which way is up."""
-
-    up: str | None = None
 
 
 def _bust(up, told=None):
@@ -24,7 +15,7 @@ def _bust(up, told=None):
     V, F = sphere(1500)
     V = 10 * V / np.linalg.norm(V, axis=1, keepdims=True)
     height = V @ up
-    return _Told(V + np.outer(np.maximum(-6 - height, 0), up), F, Visual(None), told)
+    return Source(V + np.outer(np.maximum(-6 - height, 0), up), F, up=told)
 
 
 @pytest.mark.parametrize("axis", [1, 2])

@@ -20,7 +20,7 @@ def table(height):
 @pytest.mark.parametrize("lifted", [0.0, 7.0])
 def test_a_table_top_rests_on_what_fills_the_room_below(height, lifted):
     V, F = table(height)
-    found = support_under(V + [100, 0, lifted], F)
+    found = support_under(V + np.array([100, 0, lifted]), F)
     assert found.overhang == pytest.approx(40 * 20, rel=0.01)
     assert found.room == pytest.approx(40 * 20 * height, rel=0.03)
 
@@ -29,9 +29,7 @@ def test_a_block_needs_none_and_what_is_steep_holds_itself():
     box = trimesh.creation.box((10, 10, 10))
     assert support_under(np.array(box.vertices), np.array(box.faces)) == (0, 0)
     cone = trimesh.creation.cone(10, 12)  # on its tip
-    assert support_under(np.array(cone.vertices) * [1, 1, -1], np.array(cone.faces)[:, ::-1]).overhang == (
-        pytest.approx(0, abs=320)
-    )
+    assert support_under(np.array(cone.vertices) * [1, 1, -1], np.array(cone.faces)[:, ::-1]) == (0, 0)
 
 
 def test_a_ball_within_a_ball_rests_on_the_floor_of_the_hollow():

@@ -75,4 +75,4 @@ def test_view_opens_the_page_of_a_folder(tmp_path, monkeypatch):
 def test_the_puzzle_stands_as_its_report_says(tmp_path, wheel):
     write_viewer(tmp_path / "viewer.html", ring(), {**report_of(ring()), "up": [1.0, 0.0, 0.0]})
     assert '"up":[1.0,0.0,0.0]' not in wheel.read_text(encoding="utf-8")
-    assert '"up":[1.0,0.0,0.0]' in (tmp_path / "viewer.html").read_text()
+    assert '"up":[1.0,0.0,0.0]' in (tmp_path / "viewer.html").read_text(encoding="utf-8")
