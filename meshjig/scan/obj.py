@@ -18,6 +18,8 @@ from meshjig.scan.words import NONE, Lines, plain, table
 
 __all__ = ["read_obj"]
 
+_UNUSED = 0.1  # of the vertices; more of them in no face are told, any where the last line has no end
+
 
 def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     """Read an OBJ file.
@@ -40,7 +42,8 @@ def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     """
     data = path.read_bytes()
     text = plain(data)
-    _check_text(path, text, ended=data.rstrip(b"\0 ")[-1:] in (b"\n", b"\r"))
+    ended = data.rstrip(b"\0 ")[-1:] in (b"\n", b"\r")
+    _check_text(path, text, ended)
     if b"\\\n" in text:
         text = re.sub(rb"\\[ \t]*\n", b" ", text)
     lines = Lines(text)
@@ -53,10 +56,15 @@ def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     look, notes = look_of_materials(path, lines, pictures, faces[made.polygon], Look(rgb=colours, uv=uv))
     if len(lines.starting(b"surf", b"curv")):
         notes.append("the file has free-form curves or surfaces, which are left out: export them as faces")
+    unused = len(V) - len(np.unique(made.F))
+    if len(faces) and unused > _UNUSED * len(V) * ended:
+        notes.append(
+            f"{unused} of its {len(V)} vertices belong to no face: it may be cut off, OBJ does not tell"
+        )
     return FileMesh(Source(V, made.F, look), "meshjig", notes, len(faces), made.found)
 
 
-def _check_text(path: Path, text: bytes, *, ended: bool) -> None:
+def _check_text(path: Path, text: bytes, ended: bool) -> None:
     """Refuse what is no text, or ends, without the end of a line, in half a vertex or half a face."""
     if b"\0" in text:
         raise InputError(

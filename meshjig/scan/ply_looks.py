@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats, starts
 from meshjig.scan.attachments import PictureReader
-from meshjig.scan.beside import read_beside
+from meshjig.scan.beside import read_beside, short
 from meshjig.scan.looks import together
 from meshjig.scan.ply_rows import Columns
 from meshjig.scan.source import Look
@@ -69,7 +69,7 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
             continue
         data = read_beside(path, name)
         if data is None:
-            pictures.notes.append(f"the picture {name} is missing: it is left out")
+            pictures.notes.append(f"the picture {short(name)} is missing: it is left out")
         pixels = None if data is None else pictures.pixels(data, name)
         if pixels is None:
             number[some] = -1

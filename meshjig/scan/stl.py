@@ -106,6 +106,7 @@ def _colours(head: bytes, more: NDArray[np.uint16]) -> NDArray[np.uint8] | None:
 
     Materialise's Magics writes COLOR= into the head; a bit says of a facet that it has that colour. VisCAM
     and SolidView set this bit where a facet has one of its own, and have red and blue the other way round.
+    MeshLab writes COLOR=, and sets the bit everywhere, though facets have their own.
     """
     if not len(more):
         return None
@@ -114,7 +115,8 @@ def _colours(head: bytes, more: NDArray[np.uint16]) -> NDArray[np.uint8] | None:
     at = head.find(b"COLOR=")
     if 0 <= at <= 80 - 10:
         whole = np.frombuffer(head, np.uint8, 3, at + 6)
-        return np.where(top[:, None], whole, levels)
+        shared = top & (not top.all() or (more == more[0]).all())
+        return np.where(shared[:, None], whole, levels)
     if not top.any() or (more[~top] != 0).any():
         return None
     return np.where(top[:, None], levels[:, ::-1], np.uint8(255))
