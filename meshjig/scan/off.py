@@ -14,6 +14,7 @@ from meshjig.mesh.arrays import Floats, Ints, ragged, starts
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.file_mesh import FileMesh
 from meshjig.scan.formats import half_a_face, off_shortfall
+from meshjig.scan.looks import corner_colours
 from meshjig.scan.source import Look, Source
 from meshjig.scan.surface import levels, surface
 from meshjig.scan.words import Lines, plain, table
@@ -72,10 +73,7 @@ def read_off(path: Path, pictures: PictureReader) -> FileMesh:
     corners = values[ragged(first + 1, sizes)].astype(np.int64)
     made = surface(V, corners, sizes)
     own, notes = _face_colours(values, first + 1 + sizes, rows.sizes - 1 - sizes)
-    rgb = None if colours is None else colours[made.F]
-    if own is not None:
-        rgb = np.repeat(own[made.polygon][:, None], 3, axis=1)
-    look = Look(rgb, None if uv is None else uv[made.F])
+    look = Look(corner_colours(made, own, colours), None if uv is None else uv[made.F])
     return FileMesh(Source(V, made.F, look), "meshjig", notes, head.n_faces, made.found)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from meshjig.mesh.arrays import Floats, starts
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.beside import read_beside, short
-from meshjig.scan.looks import together
+from meshjig.scan.looks import corner_colours, together
 from meshjig.scan.ply_rows import Columns
 from meshjig.scan.source import Look
 from meshjig.scan.surface import Surface, levels
@@ -84,15 +84,9 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
 
 
 def _rgb(shown: Shown) -> NDArray[np.uint8] | None:
-    """The colours of corners, those of faces before those of vertices, (m, 3, 3)."""
-    colours = _colours(shown.faces)
-    if colours is not None and len(shown.made.polygon):
-        known = shown.made.polygon < shown.n_faces
-        rgb = np.repeat(colours[np.where(known, shown.made.polygon, 0)][:, None], 3, axis=1)
-        if known.all():
-            return rgb
-    colours = _colours(shown.vertices)
-    return None if colours is None else colours[shown.made.F]
+    """The colours of corners, (m, 3, 3)."""
+    has_rows = (shown.made.polygon < shown.n_faces).all()  # strips have none of their own
+    return corner_colours(shown.made, _colours(shown.faces) if has_rows else None, _colours(shown.vertices))
 
 
 def _colours(table: Columns) -> NDArray[np.uint8] | None:

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from meshjig.scan.looks import together
+from meshjig.scan.looks import corner_colours, together
 from meshjig.scan.source import Look
+from meshjig.scan.surface import surface
 
 
 def coloured(*colours):
@@ -29,3 +30,15 @@ def test_a_picture_and_colours_beside_it():
 
 def test_no_groups_show_nothing():
     assert together([]) == Look()
+
+
+def test_colours_of_polygons_come_first_unless_they_say_nothing():
+    V = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
+    made = surface(V, np.array([0, 1, 2, 0, 2, 3]), np.array([3, 3]))
+    several = np.arange(12, dtype=np.uint8).reshape(4, 3)
+    own, white = several[:2] + 100, np.full((2, 3), 255, np.uint8)
+    assert corner_colours(made, own, several).tolist() == np.repeat(own[:, None], 3, axis=1).tolist()
+    assert corner_colours(made, white, several).tolist() == several[made.F].tolist()
+    assert corner_colours(made, white, None).tolist() == [[[255] * 3] * 3] * 2
+    assert corner_colours(made, white, several[:1].repeat(4, axis=0)).tolist() == [[[255] * 3] * 3] * 2
+    assert corner_colours(made, None, None) is None
