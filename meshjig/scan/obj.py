@@ -56,7 +56,9 @@ def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     look, notes = look_of_materials(path, lines, pictures, faces[made.polygon], Look(rgb=colours, uv=uv))
     if len(lines.starting(b"surf", b"curv")):
         notes.append("the file has free-form curves or surfaces, which are left out: export them as faces")
-    unused = len(V) - len(np.unique(made.F))
+    used = np.zeros(len(V), bool)
+    used[made.F] = True
+    unused = int(len(V) - used.sum())
     if len(faces) and unused > _UNUSED * len(V) * ended:
         notes.append(
             f"{unused} of its {len(V)} vertices belong to no face: it may be cut off, OBJ does not tell"
@@ -70,7 +72,7 @@ def _check_text(path: Path, text: bytes, ended: bool) -> None:
         raise InputError(
             f"{path} is damaged: OBJ is a format of text, and it holds none", hint="export it again"
         )
-    line = text[:-1].rsplit(b"\n", 1)[-1].split(b"#")[0].split()
+    line = text[text.rfind(b"\n", 0, len(text) - 1) + 1 :].split(b"#")[0].split()
     if not ended and line and line[0] in (b"v", b"f") and len(line) < 4:
         last = b" ".join(line).decode(errors="replace")
         raise InputError(

@@ -134,7 +134,7 @@ class Lines:
         return np.diff(before)
 
     def _byte(self, at: Ints) -> NDArray[np.uint8]:
-        return self._bytes[np.minimum(at, len(self._bytes) - 1)]
+        return self._bytes.take(at, mode="clip")
 
 
 def table(values: Floats, sizes: Ints, columns: int) -> Floats:
