@@ -73,6 +73,12 @@ def test_a_mesh_of_another_format_is_named(tmp_path, kind):
                 load(path)
 
 
+def test_a_binary_stl_is_told_by_its_size(tmp_path):
+    (tmp_path / "scan.obj").write_bytes(exported("stl"))
+    with pytest.raises(InputError, match=r"those of STL: rename it to scan\.stl"):
+        load(tmp_path / "scan.obj")
+
+
 def test_a_file_without_a_known_ending_is_told_by_its_bytes(tmp_path):
     for name, sentence in [("scan", "rename it to scan.ply"), ("scan.dat", "rename it to scan.ply")]:
         (tmp_path / name).write_bytes(exported("ply"))
