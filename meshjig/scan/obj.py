@@ -18,6 +18,7 @@ from meshjig.scan.words import NONE, Lines, plain, table
 
 __all__ = ["read_obj"]
 
+_MOST = 0.5  # of the vertices; where more have colours, the others are white
 _UNUSED = 0.1  # of the vertices; more of them in no face are told, any where the last line has no end
 
 
@@ -81,10 +82,10 @@ def _check_text(path: Path, text: bytes, ended: bool) -> None:
 
 
 def _vertices(lines: Lines) -> tuple[Floats, Floats | None]:
-    """The vertices (n, 3), and their colours (n, 3) where all have some, or a table of its own has them."""
+    """The vertices (n, 3), and their colours (n, 3) where most have some, or a table of its own has them."""
     rows = lines.only(lines.starting(b"v"), without=1)
     values, sizes = rows.floats(), rows.sizes
-    if len(sizes) and (sizes >= 6).all():
+    if len(sizes) and (sizes >= 6).mean() > _MOST:
         both = table(values, sizes, 6)
         return both[:, :3].copy(), both[:, 3:]
     return table(values, sizes, 3).copy(), _painted(lines, len(sizes))

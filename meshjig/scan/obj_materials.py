@@ -64,6 +64,8 @@ def look_of_materials(
     groups = []
     for k, one in enumerate(chosen):
         some = np.flatnonzero(group == k)
+        if one.picture and plain.uv is None and len(some):
+            shelf.without_places(one.picture.name)
         pixels = shelf.pixels(one.picture.name) if one.picture and plain.uv is not None else None
         if pixels is not None and one.picture and plain.uv is not None:
             bare = np.isnan(plain.uv[some]).any(axis=(1, 2))
@@ -89,6 +91,10 @@ class _Shelf:
                 self._pictures.notes.append(f"the picture {short(name)} is missing: it is left out")
             self._read[name] = None if data is None else self._pictures.pixels(data, name)
         return self._read[name]
+
+    def without_places(self, name: str) -> None:
+        """Note that the model has no texture coordinates for a picture."""
+        self._pictures.notes.append(f"the picture {short(name)} is left out: no face has a place in it")
 
 
 def _coloured(plain: Look, some: Ints, material: Material) -> Look:

@@ -58,6 +58,9 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
     """
     rgb, uv = _rgb(shown), _uv(shown)
     if uv is None or not names:
+        pictures.notes += [
+            f"the picture {short(name)} is left out: no face has a place in it" for name in names
+        ]
         return Look(rgb, uv)
     number = _by_face(shown, "texnumber", -1 if len(names) > 1 else 0).astype(np.int64)
     number[np.isnan(uv).any(axis=(1, 2)) | (number >= len(names))] = -1

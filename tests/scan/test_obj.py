@@ -88,5 +88,14 @@ def test_colours_of_vertices_in_all_scales(tmp_path):
     assert read(tmp_path, text).source.look.rgb.tolist() == wanted
 
 
+def test_vertices_without_colours_among_others_are_white(tmp_path):
+    text = "v 0 0 0 1 0 0\nv 9 0 0 0 1 0\nv 0 9 0\nf 1 2 3\n"
+    assert read(tmp_path, text).source.look.rgb.tolist() == [[[255, 0, 0], [0, 255, 0], [255] * 3]]
+    stray = read(
+        tmp_path, text.replace(" 1 0 0\nv", "\nv").replace(" 0 1 0\n", "\n").replace("9 0\n", "9 0 1 1 1\n")
+    )
+    assert stray.source.look.rgb is None
+
+
 def test_free_forms_are_told(tmp_path):
     assert "free-form" in read(tmp_path, f"{SQUARE}f 1 2 3 4\ncstype bezier\nsurf 0 1 0 1 1 2 3 4\n").notes[0]

@@ -83,3 +83,11 @@ def test_faces_without_places_show_the_colour_of_the_material(tmp_path):
     path.write_text(f"mtllib a.mtl\n{SQUARES}{PLACES}usemtl red\nf 1/1 2/2 3/3 4/4\nf 5 6 7 8\n")
     colours = np.array(shown(load(path).source))
     assert colours.tolist() == [[255, 0, 0]] * 2 + [[0, 0, 255]] * 2
+
+
+def test_a_picture_without_places_is_named(tmp_path):
+    picture(tmp_path / "red.png", (255, 0, 0))
+    (tmp_path / "a.mtl").write_text("newmtl red\nmap_Kd red.png\n")
+    path = tmp_path / "model.obj"
+    path.write_text(f"mtllib a.mtl\n{SQUARES}usemtl red\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n")
+    assert load(path).notes == ["the picture red.png is left out: no face has a place in it"]

@@ -96,6 +96,12 @@ def test_places_in_a_picture_by_vertices(tmp_path, names):
     assert missing.notes == ["the picture a picture.png is missing: it is left out"]
 
 
+def test_a_picture_without_places_is_named(tmp_path):
+    lines = head("ascii", "comment TextureFile a.png\n")
+    found = read(tmp_path, lines, text_rows([*PLACES, *([len(f), *f] for f in MIXED)]))
+    assert found.notes == ["the picture a.png is left out: no face has a place in it"]
+
+
 def test_several_pictures_by_numbers_of_faces(tmp_path):
     for name, colour in (("a.png", (255, 0, 0)), ("b.png", (0, 0, 255))):
         Image.new("RGB", (8, 8), colour).save(tmp_path / name)
