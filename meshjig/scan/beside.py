@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import stat
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from urllib.parse import unquote
 
 from meshjig.errors import InputError
 from meshjig.runtime.bounded import allow_file
 
-__all__ = ["find_beside", "read_beside"]
+__all__ = ["find_beside", "read_beside", "short"]
+
+_LONG = 80  # letters of a name in a sentence
 
 
 def find_beside(path: Path, name: str) -> Path | None:
-    """Find a file that a mesh file names, be its name percent-encoded or with backslashes.
+    """Find a file that a mesh file names.
+
+    Its name may be percent-encoded or have backslashes. Where nothing is there, a file of that name beside
+    the mesh file is meant, in letters of whatever case: folders are those of whoever wrote it.
 
     Parameters
     ----------
@@ -29,9 +37,8 @@ def find_beside(path: Path, name: str) -> Path | None:
     InputError
         It is a pipe or a device, on which reading would wait for ever.
     """
-    for spelt in dict.fromkeys(
-        [name, unquote(name), name.replace("\\", "/"), unquote(name.replace("\\", "/"))]
-    ):
+    spellings = [name, unquote(name), name.replace("\\", "/"), unquote(name.replace("\\", "/"))]
+    for spelt in dict.fromkeys([*spellings, *_alike(path, spellings[2:])]):
         try:
             found = path.parent / spelt
             mode = found.stat().st_mode
@@ -45,6 +52,13 @@ def find_beside(path: Path, name: str) -> Path | None:
             )
         return found
     return None
+
+
+def _alike(path: Path, spellings: Iterable[str]) -> Iterator[str]:
+    """Names of files beside a mesh file that differ from some by folders, or by the case of letters, only."""
+    last = {spelt.rsplit("/", 1)[-1].lower() for spelt in spellings} - {""}
+    with contextlib.suppress(OSError, ValueError):
+        yield from sorted(name for name in os.listdir(path.parent) if name.lower() in last)
 
 
 def read_beside(path: Path, name: str) -> bytes | None:
@@ -63,3 +77,8 @@ def read_beside(path: Path, name: str) -> bytes | None:
         return found.read_bytes()
     except OSError as error:
         raise InputError(f"{path} names {found.name}, which can't be opened ({error.strerror})") from None
+
+
+def short(name: str) -> str:
+    """Give a name as it stands in a sentence, cut where it is very long."""
+    return name if len(name) <= _LONG else f"{name[:_LONG]}..."

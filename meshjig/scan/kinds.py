@@ -94,7 +94,7 @@ def _mesh_kind(path: Path, head: bytes) -> str:
     if re.match(rb"ply[ \t]*\n", text):
         return "ply"
     if b"\0" in text:
-        return ""
+        return "stl" if size_fits(path, head) else ""
     if re.match(rb"\s*(#[^\n]*\n\s*)*(ST)?C?N?4?n?OFF\b", text):
         return "off"
     if is_text_stl(head) and b"facet" in text.lower():

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Ints
 from meshjig.scan.join import join
 from meshjig.scan.source import Look, Source
+from meshjig.scan.surface import Surface
 
-__all__ = ["together"]
+__all__ = ["corner_colours", "together"]
 
 
 def together(groups: Sequence[tuple[Ints, Look]]) -> Look:
@@ -35,3 +37,25 @@ def together(groups: Sequence[tuple[Ints, Look]]) -> Look:
         None if look.uv is None else look.uv[place],
         look.picture,
     )
+
+
+def corner_colours(
+    made: Surface, of_polygons: NDArray[np.uint8] | None, of_vertices: NDArray[np.uint8] | None
+) -> NDArray[np.uint8] | None:
+    """Give the colours of corners of triangles, (m, 3, 3): those of polygons before those of vertices.
+
+    One colour of all polygons gives way to several of vertices: programs fill in white for what they lack.
+
+    Parameters
+    ----------
+    made : Surface
+    of_polygons : (p, 3) uint8, or None
+    of_vertices : (n, 3) uint8, or None
+    """
+    if of_polygons is not None and (of_vertices is None or not _is_one(of_polygons) or _is_one(of_vertices)):
+        return np.repeat(of_polygons[made.polygon][:, None], 3, axis=1)
+    return None if of_vertices is None else of_vertices[made.F]
+
+
+def _is_one(colours: NDArray[np.uint8]) -> bool:
+    return bool((colours == colours[:1]).all())

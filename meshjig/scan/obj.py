@@ -18,6 +18,9 @@ from meshjig.scan.words import NONE, Lines, plain, table
 
 __all__ = ["read_obj"]
 
+_MOST = 0.5  # of the vertices; where more have colours, the others are white
+_UNUSED = 0.1  # of the vertices; more of them in no face are told, any where the last line has no end
+
 
 def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     """Read an OBJ file.
@@ -40,7 +43,8 @@ def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     """
     data = path.read_bytes()
     text = plain(data)
-    _check_text(path, text, ended=data.rstrip(b"\0 ")[-1:] in (b"\n", b"\r"))
+    ended = data.rstrip(b"\0 ")[-1:] in (b"\n", b"\r")
+    _check_text(path, text, ended)
     if b"\\\n" in text:
         text = re.sub(rb"\\[ \t]*\n", b" ", text)
     lines = Lines(text)
@@ -53,16 +57,23 @@ def read_obj(path: Path, pictures: PictureReader) -> FileMesh:
     look, notes = look_of_materials(path, lines, pictures, faces[made.polygon], Look(rgb=colours, uv=uv))
     if len(lines.starting(b"surf", b"curv")):
         notes.append("the file has free-form curves or surfaces, which are left out: export them as faces")
+    used = np.zeros(len(V), bool)
+    used[made.F] = True
+    unused = int(len(V) - used.sum())
+    if len(faces) and unused > _UNUSED * len(V) * ended:
+        notes.append(
+            f"{unused} of its {len(V)} vertices belong to no face: it may be cut off, OBJ does not tell"
+        )
     return FileMesh(Source(V, made.F, look), "meshjig", notes, len(faces), made.found)
 
 
-def _check_text(path: Path, text: bytes, *, ended: bool) -> None:
+def _check_text(path: Path, text: bytes, ended: bool) -> None:
     """Refuse what is no text, or ends, without the end of a line, in half a vertex or half a face."""
     if b"\0" in text:
         raise InputError(
             f"{path} is damaged: OBJ is a format of text, and it holds none", hint="export it again"
         )
-    line = text[:-1].rsplit(b"\n", 1)[-1].split(b"#")[0].split()
+    line = text[text.rfind(b"\n", 0, len(text) - 1) + 1 :].split(b"#")[0].split()
     if not ended and line and line[0] in (b"v", b"f") and len(line) < 4:
         last = b" ".join(line).decode(errors="replace")
         raise InputError(
@@ -71,10 +82,10 @@ def _check_text(path: Path, text: bytes, *, ended: bool) -> None:
 
 
 def _vertices(lines: Lines) -> tuple[Floats, Floats | None]:
-    """The vertices (n, 3), and their colours (n, 3) where all have some, or a table of its own has them."""
+    """The vertices (n, 3), and their colours (n, 3) where most have some, or a table of its own has them."""
     rows = lines.only(lines.starting(b"v"), without=1)
     values, sizes = rows.floats(), rows.sizes
-    if len(sizes) and (sizes >= 6).all():
+    if len(sizes) and (sizes >= 6).mean() > _MOST:
         both = table(values, sizes, 6)
         return both[:, :3].copy(), both[:, 3:]
     return table(values, sizes, 3).copy(), _painted(lines, len(sizes))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Ints
 from meshjig.scan.attachments import PictureReader
-from meshjig.scan.beside import find_beside, read_beside
+from meshjig.scan.beside import find_beside, read_beside, short
 from meshjig.scan.looks import together
 from meshjig.scan.mtl import Material, parse_mtl
 from meshjig.scan.source import Look
@@ -52,7 +52,7 @@ def look_of_materials(
     by_name: dict[str | None, int] = {}
     wanted = [by_name.setdefault(names[k] if k >= 0 else None, len(by_name)) for k in used]
     group = np.array(wanted, np.int64)[group] if len(used) else group
-    lacking = [repr(name) for name in by_name if name is not None and name not in known]
+    lacking = [repr(short(name)) for name in by_name if name is not None and name not in known]
     if lacking and known:
         more = f" and {len(lacking) - _NAMED} more" if len(lacking) > _NAMED else ""
         notes.append(f"no file of materials has {', '.join(lacking[:_NAMED])}{more}: left out")
@@ -64,6 +64,8 @@ def look_of_materials(
     groups = []
     for k, one in enumerate(chosen):
         some = np.flatnonzero(group == k)
+        if one.picture and plain.uv is None and len(some):
+            shelf.without_places(one.picture.name)
         pixels = shelf.pixels(one.picture.name) if one.picture and plain.uv is not None else None
         if pixels is not None and one.picture and plain.uv is not None:
             bare = np.isnan(plain.uv[some]).any(axis=(1, 2))
@@ -86,9 +88,13 @@ class _Shelf:
         if name not in self._read:
             data = read_beside(self._path, name)
             if data is None:
-                self._pictures.notes.append(f"the picture {name} is missing: it is left out")
+                self._pictures.notes.append(f"the picture {short(name)} is missing: it is left out")
             self._read[name] = None if data is None else self._pictures.pixels(data, name)
         return self._read[name]
+
+    def without_places(self, name: str) -> None:
+        """Note that the model has no texture coordinates for a picture."""
+        self._pictures.notes.append(f"the picture {short(name)} is left out: no face has a place in it")
 
 
 def _coloured(plain: Look, some: Ints, material: Material) -> Look:
@@ -106,15 +112,17 @@ def _library(path: Path, lines: Lines) -> tuple[dict[str, Material], list[str]]:
     """All materials that the file names, and notes on what is missing."""
     known: dict[str, Material] = {}
     notes = []
-    for k in lines.starting(b"mtllib"):
-        whole = lines.rest(int(k)).strip("\"' ")
+    libraries = [lines.rest(int(k)).strip("\"' ") for k in lines.starting(b"mtllib")]
+    for whole in dict.fromkeys(libraries):
         names = whole.split() if find_beside(path, whole) is None else [whole]
         if not any(find_beside(path, name) for name in names):
             names = [whole]
         for name in names:
             data = read_beside(path, name)
             if data is None:
-                notes.append(f"the file of materials {name} is missing, and with it colours and pictures")
+                notes.append(
+                    f"the file of materials {short(name)} is missing, and with it colours and pictures"
+                )
             else:
                 known = {**parse_mtl(data), **known}
     return known, list(dict.fromkeys(notes))

@@ -14,6 +14,7 @@ from meshjig.mesh.arrays import Floats, Ints, ragged, starts
 from meshjig.scan.attachments import PictureReader
 from meshjig.scan.file_mesh import FileMesh
 from meshjig.scan.formats import half_a_face, off_shortfall
+from meshjig.scan.looks import corner_colours
 from meshjig.scan.source import Look, Source
 from meshjig.scan.surface import levels, surface
 from meshjig.scan.words import Lines, plain, table
@@ -21,7 +22,7 @@ from meshjig.scan.words import Lines, plain, table
 __all__ = ["read_off"]
 
 
-_KEYWORD = re.compile(r"(?i:(ST)?)(?i:(C)?)(?i:(N)?)(4)?(n)?(?i:OFF)\b\s*(.*)")
+_KEYWORD = re.compile(r"((?:ST|C|N)*)(4?)(n?)(?i:OFF)\b\s*(.*)")
 
 
 class _Head(NamedTuple):
@@ -72,10 +73,7 @@ def read_off(path: Path, pictures: PictureReader) -> FileMesh:
     corners = values[ragged(first + 1, sizes)].astype(np.int64)
     made = surface(V, corners, sizes)
     own, notes = _face_colours(values, first + 1 + sizes, rows.sizes - 1 - sizes)
-    rgb = None if colours is None else colours[made.F]
-    if own is not None:
-        rgb = np.repeat(own[made.polygon][:, None], 3, axis=1)
-    look = Look(rgb, None if uv is None else uv[made.F])
+    look = Look(corner_colours(made, own, colours), None if uv is None else uv[made.F])
     return FileMesh(Source(V, made.F, look), "meshjig", notes, head.n_faces, made.found)
 
 
@@ -83,12 +81,12 @@ def _head(path: Path, lines: Lines) -> _Head:
     """What kind of OFF file it is, and how many vertices and faces it announces."""
     words, n_lines = lines.line(0) if len(lines) else "", 1
     kind = _KEYWORD.match(words)
-    has = [bool(part) for part in kind.groups()[:5]] if kind else [False] * 5
+    beside, homogeneous, other = kind.groups()[:3] if kind else ("", "", "")
     if kind:
-        words = kind[6]
+        words = kind[4]
         if not words and len(lines) > 1:
             words, n_lines = lines.line(1), 2
-    if words.upper().startswith("BINARY") or has[4]:
+    if words.upper().startswith("BINARY") or other:
         raise InputError(
             f"{path} is a binary OFF file, or one of other than three dimensions, which is not read",
             hint="export it as text, or as PLY",
@@ -100,8 +98,10 @@ def _head(path: Path, lines: Lines) -> _Head:
             " faces it has",
             hint="export it again",
         )
-    texture, colours, normals, homogeneous, _ = has
-    return _Head(texture, colours, normals, homogeneous, int(counts[0][:18]), int(counts[1][:18]), n_lines)
+    n_vertices, n_faces = (int(count[:18]) for count in counts[:2])
+    return _Head(
+        "ST" in beside, "C" in beside, "N" in beside, bool(homogeneous), n_vertices, n_faces, n_lines
+    )
 
 
 def _vertices(head: _Head, rows: Lines) -> tuple[Floats, NDArray[np.uint8] | None, Floats | None]:
@@ -112,13 +112,21 @@ def _vertices(head: _Head, rows: Lines) -> tuple[Floats, NDArray[np.uint8] | Non
     V = values[:, :3].copy()
     if head.homogeneous:
         V /= values[:, 3:4]
-    at += 3 * head.normals
-    uv = values[:, width - 2 :] if head.texture and width >= at + 2 else None
-    shown = values[:, at : at + 3]
-    rest = width - at - 2 * head.texture
-    if rest not in (3, 4) or not (head.colours or ((shown >= 0) & (shown <= 255)).all()):
+    rest = width - at - 3 * head.normals - 2 * head.texture  # columns of colours
+    uv = values[:, width - 2 :] if head.texture and rest >= 0 else None
+    if rest not in (3, 4):
         return V, None, uv
-    return V, levels(shown), uv
+    shown = values[:, at + 3 * head.normals :][:, :3]
+    if not _are_colours(shown):  # MeshLab writes them before the normals
+        shown = values[:, at : at + 3]
+    return V, levels(shown) if _are_colours(shown) else None, uv
+
+
+def _are_colours(values: Floats) -> bool:
+    """Whether numbers (n, 3) can be colours: 0 to 1, or whole ones up to 255."""
+    return bool(
+        ((values >= 0) & (values <= 255)).all() and ((values <= 1) | (values == np.rint(values))).all()
+    )
 
 
 def _face_colours(values: NDArray, at: Ints, count: Ints) -> tuple[NDArray[np.uint8] | None, list[str]]:

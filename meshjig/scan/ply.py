@@ -17,7 +17,7 @@ from meshjig.scan.ply_rows import Broken, Columns, Lists, read_tables
 from meshjig.scan.source import Source
 from meshjig.scan.strips import strip_triangles
 from meshjig.scan.surface import surface
-from meshjig.scan.words import plain
+from meshjig.scan.words import plain, unmarked
 
 __all__ = ["read_ply"]
 
@@ -47,7 +47,7 @@ def read_ply(path: Path, pictures: PictureReader) -> FileMesh:
     data = path.read_bytes()
     if data[:2] in _WIDE:
         data = plain(data)
-    data = data.removeprefix(codecs.BOM_UTF8)
+    data = unmarked(data)
     head = parse_head(data)
     if head is None:
         raise InputError(

@@ -26,7 +26,7 @@ _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 class Property(NamedTuple):
     """A property of an element."""
 
-    name: str
+    name: str  # in small letters
     kind: str  # its type, as NumPy has it: "f4"
     count_kind: str | None  # of the number that a list begins with; None for what is no list
 
@@ -78,7 +78,7 @@ def parse_head(data: bytes) -> Head | None:
 
 def _property(words: list[str]) -> Property | None:
     if len(words) == 5 and words[1] == "list" and {words[2], words[3]} <= TYPES.keys():
-        return Property(words[4], TYPES[words[3]], TYPES[words[2]])
+        return Property(words[4].lower(), TYPES[words[3]], TYPES[words[2]])
     if len(words) == 3 and words[1] in TYPES:
-        return Property(words[2], TYPES[words[1]], None)
+        return Property(words[2].lower(), TYPES[words[1]], None)
     return None

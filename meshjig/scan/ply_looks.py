@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats, starts
 from meshjig.scan.attachments import PictureReader
-from meshjig.scan.beside import read_beside
-from meshjig.scan.looks import together
+from meshjig.scan.beside import read_beside, short
+from meshjig.scan.looks import corner_colours, together
 from meshjig.scan.ply_rows import Columns
 from meshjig.scan.source import Look
 from meshjig.scan.surface import Surface, levels
@@ -58,6 +58,9 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
     """
     rgb, uv = _rgb(shown), _uv(shown)
     if uv is None or not names:
+        pictures.notes += [
+            f"the picture {short(name)} is left out: no face has a place in it" for name in names
+        ]
         return Look(rgb, uv)
     number = _by_face(shown, "texnumber", -1 if len(names) > 1 else 0).astype(np.int64)
     number[np.isnan(uv).any(axis=(1, 2)) | (number >= len(names))] = -1
@@ -69,7 +72,7 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
             continue
         data = read_beside(path, name)
         if data is None:
-            pictures.notes.append(f"the picture {name} is missing: it is left out")
+            pictures.notes.append(f"the picture {short(name)} is missing: it is left out")
         pixels = None if data is None else pictures.pixels(data, name)
         if pixels is None:
             number[some] = -1
@@ -84,15 +87,9 @@ def look_of_ply(path: Path, pictures: PictureReader, names: list[str], shown: Sh
 
 
 def _rgb(shown: Shown) -> NDArray[np.uint8] | None:
-    """The colours of corners, those of faces before those of vertices, (m, 3, 3)."""
-    colours = _colours(shown.faces)
-    if colours is not None and len(shown.made.polygon):
-        known = shown.made.polygon < shown.n_faces
-        rgb = np.repeat(colours[np.where(known, shown.made.polygon, 0)][:, None], 3, axis=1)
-        if known.all():
-            return rgb
-    colours = _colours(shown.vertices)
-    return None if colours is None else colours[shown.made.F]
+    """The colours of corners, (m, 3, 3)."""
+    has_rows = (shown.made.polygon < shown.n_faces).all()  # strips have none of their own
+    return corner_colours(shown.made, _colours(shown.faces) if has_rows else None, _colours(shown.vertices))
 
 
 def _colours(table: Columns) -> NDArray[np.uint8] | None:

@@ -160,7 +160,11 @@ def _by_pymeshlab(path: Path) -> Source | None:
     try:
         meshes.load_new_mesh(str(path.resolve()))
         mesh = meshes.current_mesh()
-        return _plain(mesh.vertex_matrix(), mesh.face_matrix())
+        source = _plain(mesh.vertex_matrix(), mesh.face_matrix())
+        sound = not len(source.faces) or (
+            source.faces.min() >= 0 and source.faces.max() < len(source.vertices)
+        )
+        return source if sound else None
     except Exception as error:  # as above
         _log.info("pymeshlab can't read %s: %r", path, error)
         return None

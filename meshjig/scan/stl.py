@@ -20,7 +20,6 @@ __all__ = ["is_text_stl", "read_stl", "size_fits"]
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
 _HEAD = 84  # bytes
 _UNSET = (0, 2**32 - 1)  # counts that stand where a writer meant to come back to
-_BREAKS = (b"facet", b"outer", b"endloop", b"endfacet")
 
 
 def is_text_stl(data: bytes) -> bool:
@@ -66,10 +65,10 @@ def _of_text(path: Path, data: bytes) -> FileMesh:
     corners = lines.starting(b"vertex")
     rows = lines.only(corners, without=6)
     V = table(rows.floats(), rows.sizes, 3)
-    facet = np.searchsorted(lines.starting(*_BREAKS), corners)
-    _, sizes = np.unique(facet, return_counts=True)
-    announced = max(len(lines.starting(b"facet")), len(lines.starting(b"endfacet")), len(sizes))
-    made = surface(V, np.arange(len(V)), sizes)
+    place = np.searchsorted(np.flatnonzero(lines.sizes), corners)
+    breaks = np.flatnonzero(np.diff(place, prepend=-2) > 1)  # other lines between corners, whatever they say
+    made = surface(V, np.arange(len(V)), np.diff(breaks, append=len(place)))
+    announced = max(len(lines.starting(b"facet")), made.found)
     return FileMesh(Source(V, made.F), "meshjig", [], announced, made.found)
 
 
@@ -106,6 +105,7 @@ def _colours(head: bytes, more: NDArray[np.uint16]) -> NDArray[np.uint8] | None:
 
     Materialise's Magics writes COLOR= into the head; a bit says of a facet that it has that colour. VisCAM
     and SolidView set this bit where a facet has one of its own, and have red and blue the other way round.
+    MeshLab writes COLOR=, and sets the bit everywhere, though facets have their own.
     """
     if not len(more):
         return None
@@ -114,7 +114,8 @@ def _colours(head: bytes, more: NDArray[np.uint16]) -> NDArray[np.uint8] | None:
     at = head.find(b"COLOR=")
     if 0 <= at <= 80 - 10:
         whole = np.frombuffer(head, np.uint8, 3, at + 6)
-        return np.where(top[:, None], whole, levels)
+        shared = top & (not top.all() or (more == more[0]).all())
+        return np.where(shared[:, None], whole, levels)
     if not top.any() or (more[~top] != 0).any():
         return None
     return np.where(top[:, None], levels[:, ::-1], np.uint8(255))

@@ -51,16 +51,17 @@ def surface(V: Floats, corners: Ints, sizes: Ints) -> Surface:
 
 
 def levels(colours: Floats, whole: bool = False) -> NDArray[np.uint8]:
-    """Give colours as bytes.
+    """Give colours as bytes, white for NaN.
 
     Parameters
     ----------
     colours : (..., 3) float64
     whole : bool, whether they are known to be 0 to 255; else they are 0 to 1 where none is larger
     """
-    known = np.nan_to_num(colours, nan=255.0, posinf=255.0, neginf=0.0)
-    scale = 1.0 if whole or known.max(initial=0.0) > 1.0 else 255.0
-    return np.rint(np.clip(known * scale, 0, 255)).astype(np.uint8)
+    most = colours.max(initial=0.0, where=np.isfinite(colours))
+    scale = 1.0 if whole or most > 1.0 else 255.0
+    known = np.nan_to_num(colours * scale, nan=255.0, posinf=255.0, neginf=0.0)
+    return np.rint(np.clip(known, 0, 255)).astype(np.uint8)
 
 
 def _all_of(good: Bools, sizes: Ints) -> Bools:

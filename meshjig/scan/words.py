@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats, Ints, starts
 
-__all__ = ["NONE", "Lines", "plain", "table"]
+__all__ = ["NONE", "Lines", "plain", "table", "unmarked"]
 
 NONE = np.iinfo(np.int64).min  # stands for a word that is no whole number
 _LARGE = 2.0**53
@@ -26,16 +26,24 @@ def plain(data: bytes) -> bytes:
 
     UTF-16 is told by its mark, or by every other of its first bytes being zero.
     """
+    data = unmarked(data)
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         data = data.decode("utf-16", "replace").encode()
     elif len(data) > 3 and data[1] == data[3] == 0 != data[0] and data[2]:
         data = data.decode("utf-16-le", "replace").encode()
     elif len(data) > 3 and data[0] == data[2] == 0 != data[1] and data[3]:
         data = data.decode("utf-16-be", "replace").encode()
-    data = data.removeprefix(codecs.BOM_UTF8)
+    data = unmarked(data)
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return data if data.endswith(b"\n") else data + b"\n"
+
+
+def unmarked(data: bytes) -> bytes:
+    """Give bytes without the byte-order marks of UTF-8 that they begin with."""
+    while data.startswith(codecs.BOM_UTF8):
+        data = data[3:]
+    return data
 
 
 class Lines:
@@ -126,7 +134,7 @@ class Lines:
         return np.diff(before)
 
     def _byte(self, at: Ints) -> NDArray[np.uint8]:
-        return self._bytes[np.minimum(at, len(self._bytes) - 1)]
+        return self._bytes.take(at, mode="clip")
 
 
 def table(values: Floats, sizes: Ints, columns: int) -> Floats:

@@ -1,5 +1,6 @@
 """Every format and all that it can carry: written, and read back to the right value."""
 
+import numpy as np
 import pytest
 
 from meshjig.scan.load import load
@@ -41,6 +42,32 @@ def test_what_a_format_carries_arrives(tmp_path, write, carries):
     read = load(write(tmp_path, carries))
     SURFACE[carries](read.source)
     assert read.notes == []
+
+
+BY_PYMESHLAB = [("stl", "face colours")]
+BY_PYMESHLAB += [(kind, f"{of} colours") for kind in ("obj", "ply", "off") for of in ("vertex", "face")]
+
+
+@pytest.mark.parametrize(("kind", "carries"), BY_PYMESHLAB)
+def test_colours_as_a_library_writes_them(tmp_path, kind, carries):
+    import pymeshlab
+
+    of_faces = carries == "face colours"
+    colours = (
+        carried.colour_towards(carried.normals(carried.TRIANGLES))
+        if of_faces
+        else carried.colour_at(carried.V)
+    )
+    name = "f_color_matrix" if of_faces else "v_color_matrix"
+    shown = {name: np.column_stack([colours / 255, np.ones(len(colours))])}
+    meshes = pymeshlab.MeshSet(verbose=False)
+    meshes.add_mesh(pymeshlab.Mesh(carried.V, carried.TRIANGLES, **shown))
+    path = tmp_path / f"model.{kind}"
+    saved = {"save_face_color": of_faces, "save_vertex_color": not of_faces} if kind != "stl" else {}
+    meshes.save_current_mesh(str(path), **saved)
+    read = load(path)
+    carried.assert_polygons(read.source)
+    SURFACE[carries](read.source)
 
 
 @pytest.mark.parametrize(("name", "write", "unit", "up"), SAYS)

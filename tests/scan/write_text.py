@@ -84,14 +84,13 @@ def ply(order):
             vertices.append(("u1", ["diffuse_red", "diffuse_green", "diffuse_blue"], colour_at(V)))
         if carries == "face colours":
             faces.append(("f4", ["red", "green", "blue"], colour_towards(normals(POLYGONS)) / 255))
-        lists = {"vertex_indices": ("i4", polygons)}
+        lists, picture = {"vertex_indices": ("i4", polygons)}, ""
         if carries == "texture":
             Image.fromarray(PICTURE).save(folder / "picture.png")
+            picture = "comment TextureFile picture.png\n"
             lists["texcoord"] = ("f4", [uv_at(V[polygon]).ravel() for polygon in polygons])
         name = {"": "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order]
-        head = (
-            f"ply\nformat {name} 1.0\ncomment TextureFile picture.png\nelement vertex {len(vertices[0][2])}\n"
-        )
+        head = f"ply\nformat {name} 1.0\n{picture}element vertex {len(vertices[0][2])}\n"
         head += "".join(f"property {_TYPES[kind]} {x}\n" for kind, names, _ in vertices for x in names)
         head += f"element face {len(polygons)}\n"
         head += "".join(f"property list uchar {_TYPES[kind]} {key}\n" for key, (kind, _) in lists.items())
