@@ -67,6 +67,8 @@ def mutated(kind: str, data: bytes, chance: random.Random) -> tuple[bytes, list[
 
 def _fitting(kind: str, data: bytes) -> list[Mutation]:
     raw = [_overwrite, _truncate, _cut_out, _append]
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return raw  # two bytes a letter by now
     if kind == "glb":
         return [_json_value, _json_value, _json_drop, _json_double, *raw]
     if kind == "3mf":
