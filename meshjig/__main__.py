@@ -16,7 +16,7 @@ def main() -> "NoReturn":
         from meshjig.cli.front import run_in_front
 
         run_in_front()
-    from meshjig.cli.commands import run
+    from meshjig.cli.run import run
 
     run(sys.argv[1:])
 

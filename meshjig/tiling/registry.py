@@ -7,11 +7,10 @@ first line of the function's docstring.
 
 import logging
 from collections.abc import Callable
-from difflib import get_close_matches
 from importlib.metadata import EntryPoint, entry_points
 from typing import NamedTuple
 
-from meshjig.errors import OptionError
+from meshjig.errors import OptionError, did_you_mean
 from meshjig.mesh.arrays import Floats
 from meshjig.tiling.check_unit import check_unit
 from meshjig.tiling.families import escher
@@ -77,11 +76,8 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
     if name in _plugins():
         return _plugin_unit(name, seed, columns)
     known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *sorted(_plugins()), "FILE.svg"]
-    close = get_close_matches(name.lower(), [*known, "isohedral:IH01"], n=1)
-    raise OptionError(
-        f"there is no tiling {name!r}" + (f"; did you mean {close[0]}?" if close else ""),
-        hint="known are " + ", ".join(known),
-    )
+    near = did_you_mean(name, [*known, "isohedral:IH01"])
+    raise OptionError(f"there is no tiling {name!r}", hint=f"{near} known are {', '.join(known)}".strip())
 
 
 def get_decor(name: str) -> list[list[Floats]] | None:

@@ -136,7 +136,7 @@ def test_a_crash_in_native_code_ends_in_a_sentence(ball, tmp_path, name):
     assert said.startswith("meshjig: ")
     assert words in said
     assert "nothing was written" in said
-    assert running.returncode == 1
+    assert running.returncode == (128 + signal.SIGKILL if name == "SIGKILL" else 70)
     assert not list(tmp_path.iterdir())
 
 
@@ -169,7 +169,7 @@ def test_a_full_standard_output_does_not_hide_the_puzzle(small, tmp_path):
     with Path("/dev/full").open("w") as full:
         ended = started("make", small, "-o", target, *QUICK, "--json", stdout=full)
         said = ended.communicate(timeout=300)[1]
-    assert ended.returncode == 1
+    assert ended.returncode == 5  # that device is a full disk
     assert f"standard output can't be written (no space left on device); {target} is whole" in said
     assert "nothing was written" not in said
     assert json.loads((target / "report.json").read_text())["ok"] is not None

@@ -74,7 +74,7 @@ def test_all_names_have_one_line_about_them():
     [("clasic", "classic"), ("hexagon", "hex"), ("Macro", "macro"), ("polyominoes", "polyomino")],
 )
 def test_misspelt_name_is_answered_with_the_closest(wrong, right):
-    with pytest.raises(OptionError, match=rf"'{wrong}'; did you mean {right}\?.*rectangular.*FILE\.svg"):
+    with pytest.raises(OptionError, match=rf"'{wrong}': did you mean {right}\?.*rectangular.*FILE\.svg"):
         get_family(wrong)
 
 

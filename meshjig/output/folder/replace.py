@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from meshjig.errors import OutputError
+from meshjig.errors import OutputError, write_error
 from meshjig.output.folder.claim import Claim, claimed
 from meshjig.output.folder.manifest import REPORT, read_manifest, sign, stranger
 from meshjig.runtime.signals import hold_signals
@@ -90,8 +90,7 @@ def _as_sentences(target: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise OutputError(f"the output folder {target} can't be written ({reason})", hint=_HINT) from error
+        raise write_error(f"the output folder {target}", error, _HINT) from error
 
 
 def _refuse_inputs(target: Path, inputs: Sequence[str | os.PathLike[str]]) -> None:
