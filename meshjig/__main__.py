@@ -12,6 +12,7 @@ __all__ = ["main"]
 
 def main() -> "NoReturn":
     """Run the command line."""
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # they are foreign, and may be damaged
     if hasattr(os, "posix_spawn") and sys.executable:
         from meshjig.cli.front import run_in_front
 

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
-from meshjig.cli.commands import app
 from meshjig.cli.endings import CUT_OFF, Ending, exit_code_of, wants_json
 from meshjig.cli.streams import emit, error_stream, outcome, say
 from meshjig.cli.usage import is_usage_error, usage_error
@@ -52,6 +51,8 @@ def run_behind_front(front: str, pipe: str, *words: str) -> NoReturn:
 def exit_code(words: Sequence[str]) -> int:
     """Run the command line, say what has gone wrong, and give the exit code."""
     try:
+        from meshjig.cli.commands import app  # here, so that a damaged installation ends in a sentence too
+
         code = app(args=list(words), prog_name="meshjig", standalone_mode=False)
     except BaseException as error:
         ending = _ending_of(error, words)

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+import typer
 
 from meshjig.cli import commands
 from meshjig.cli.run import exit_code
@@ -113,3 +114,15 @@ def test_help_tells_exit_codes_choices_and_defaults(capsys):
         "--viewer / --no-viewer write viewer.html (default: on)",
     ):
         assert shown in said, shown
+
+
+def test_broken_promises_are_in_the_report_that_is_printed(capsys):
+    report = {"ok": False, "pieces": [], "failures": {"gap_mm": ["piece_001", "piece_002"]}}
+    with pytest.raises(typer.Exit) as ending:
+        commands._answer(report, report["failures"])
+    said = capsys.readouterr()
+    told = json.loads(said.out)
+    assert ending.value.exit_code == told["exit"] == 3
+    assert {**report, "error": told["error"], "exit": 3} == told
+    assert told["error"]["kind"] == "promise"
+    assert said.err == "meshjig: broken promise: gap_mm (piece_001, piece_002)\n"
