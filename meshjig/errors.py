@@ -136,12 +136,20 @@ def write_error(what: str, error: OSError | ValueError, hint: str = "") -> Outpu
     return kind(f"{what} can't be written ({reason})", hint=hint)
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Give a question that names the nearest of known words, to be put behind a sentence; or nothing."""
+def did_you_mean(word: str, known: Iterable[str], least: float = 0.6) -> str:
+    """Give a question that names the nearest of known words, to be put behind a sentence; or nothing.
+
+    Parameters
+    ----------
+    word : str
+    known : iterable of str
+    least : float, how like it a word has to be, 0 to 1; one that begins with it is like enough
+    """
     from difflib import get_close_matches
 
     by_lower = {name.lower(): name for name in known}
-    near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
+    near = get_close_matches(word.lower(), by_lower, n=1, cutoff=least)
+    near = near or [name for name in by_lower if name.startswith(word.lower())][:1] if word else []
     return f"did you mean {by_lower[near[0]]}?" if near else ""
 
 

@@ -16,7 +16,7 @@ __all__ = ["choices", "option_error", "refused", "shown_value", "spelling"]
 REFUSED = "refused"
 _LONGEST = 40  # characters of a value that are shown
 _MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4, '"': 25.4}
-_MEASURE = re.compile(r"([-+]?\d+(?:[.,]\d+)?)\s*([a-zA-Z\"]*|%)")
+_MEASURE = re.compile(r"([-+]?\d+(?:[.,]\d+)?)\s*([a-zA-Z\"]*|%|°)")
 _GROUPED = re.compile(r"\d{1,3}(?:[ ,'._]\d{3})+")
 _BOUNDS = {"greater_than": "gt", "greater_than_equal": "ge", "less_than": "lt", "less_than_equal": "le"}
 _WORDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
@@ -40,6 +40,8 @@ def option_error(errors: Sequence[Mapping[str, Any]], fields: Mapping[str, Any])
     if first["type"] == REFUSED:
         name, hint = first["ctx"]["option"], first["ctx"]["hint"]
         return OptionError(f"{spelling(name)}: {first['msg']}", hint=hint, option=name)
+    if not first["loc"]:
+        return OptionError(first["msg"].removeprefix("Value error, "))
     name = str(first["loc"][0])
     if first["type"] == "extra_forbidden":
         hint = did_you_mean(spelling(name), map(spelling, fields)) or "meshjig make --help lists them"
@@ -85,6 +87,7 @@ def _refusal(errors: Sequence[Mapping[str, Any]], field: Any) -> tuple[str, str]
     """Say what is wrong with a value, and what to do about it."""
     kinds = {error["type"]: error for error in errors}
     shown, words = shown_value(errors[0]["input"]), choices(field.annotation)
+    whole = any(kind.startswith("int") for kind in kinds)
     bound = next((kind for kind in _BOUNDS if kind in kinds), "")
     if bound:
         key = _BOUNDS[bound]
@@ -96,10 +99,12 @@ def _refusal(errors: Sequence[Mapping[str, Any]], field: Any) -> tuple[str, str]
             f"give {_WORDS[key]} {limit if isinstance(limit, int) else f'{limit:g}'}{also}",
         )
     if "literal_error" in kinds:
-        number = "no whole number and " if _NO_NUMBER & kinds.keys() else ""
-        return f"{shown} is {number}none of {', '.join(words)}", did_you_mean(str(errors[0]["input"]), words)
+        near = did_you_mean(str(errors[0]["input"]), words)
+        if _NO_NUMBER & kinds.keys():
+            says = f"{shown} is neither a {'whole ' * whole}number nor {' nor '.join(words)}"
+            return says, near or _as_number(errors[0]["input"], whole, field)
+        return f"{shown} is none of {', '.join(words)}", near
     if _NO_NUMBER & kinds.keys():
-        whole = any(kind.startswith("int") for kind in kinds)
         return f"{shown} is no {'whole ' * whole}number", _as_number(errors[0]["input"], whole, field)
     if "bool_parsing" in kinds or "bool_type" in kinds:
         return f"{shown} is neither true nor false", ""
@@ -119,14 +124,18 @@ def _as_number(value: Any, whole: bool, field: Any) -> str:
     if whole and _GROUPED.fullmatch(text):
         return f"write {re.sub('[^0-9]', '', text)}"
     found = _MEASURE.fullmatch(text)
-    if found is None or whole:
+    if found is None:
         return ""
     number, unit = float(found[1].replace(",", ".")), found[2].lower()
+    if unit == "k":
+        return f"write {1000 * number:.0f}"
+    if whole:
+        return ""
     if unit == "%":
         return f"write {number / 100:g}"
     if unit in _MILLIMETRES and "mm" in re.findall("[a-z]+", field.description or ""):
         return f"lengths are in mm, so write {number * _MILLIMETRES[unit]:g}"
-    return f"write {number:g}" if not unit else ""
+    return f"write {number:g}" if unit in ("", "deg", "degrees", "°") else ""
 
 
 def _either(words: Iterable[str]) -> str:

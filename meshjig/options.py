@@ -256,7 +256,7 @@ def _refuse_contradictions(fields: Mapping[str, FieldInfo], given: Preset) -> No
             says = f"{shown_value(given[name])} is no value for it"
             raise refused(name, says, "give another, or leave it out")
     if "pieces" in given and "piece_size" in given:
-        says = "piece-size is given as well, and each of them decides the other"
+        says = "piece-size is given as well, and each of the two settles the other"
         raise refused("pieces", says, "give one of them")
     asking = sorted(given.keys() & OF_TILES)
     layout = given.get("layout", "tiles" if asking else "cells")
@@ -264,7 +264,7 @@ def _refuse_contradictions(fields: Mapping[str, FieldInfo], given: Preset) -> No
     for name in sorted(given.keys() & set(foreign)):
         if given[name] != fields[name].default:
             why = "" if "layout" in given else f", which {spelling(asking[0])} asks for"
-            says = f"it is for the layout of {other}, and the layout is {layout}{why}"
+            says = f"this is for the layout of {other}, and the layout is {layout}{why}"
             raise refused(name, says, "leave out one of them")
     given["layout"] = layout
 

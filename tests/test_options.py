@@ -111,7 +111,7 @@ def test_a_config_file_holds_processes(toml, flags, tmp_path):
     ],
 )
 def test_what_the_layout_has_not_is_refused(given, name):
-    with pytest.raises(OptionError, match=f"^{name}: it is for the layout of .*leave out one"):
+    with pytest.raises(OptionError, match=f"^{name}: this is for the layout of .*leave out one"):
         Options.of(**given)
 
 
@@ -148,7 +148,9 @@ def test_an_option_of_tiles_asks_for_them():
         ),
         ({"thickness": 0}, "thickness: 0 is too small: give more than 0"),
         ({"join": "mitre"}, "join: 'mitre' is none of miter, round: did you mean miter?"),
-        ({"faces": "al"}, "faces: 'al' is no whole number and none of all: did you mean all?"),
+        ({"faces": "al"}, "faces: 'al' is neither a whole number nor all: did you mean all?"),
+        ({"faces": "50k"}, "faces: '50k' is neither a whole number nor all: write 50000"),
+        ({"angle": "45deg"}, "angle: '45deg' is no number: write 45"),
         ({"faces": 7}, "faces: 7 is too small: give at least 100, or 'all'"),
         ({"format": "stl,3fm"}, "format: '3fm' is none of stl, ply, 3mf, obj, glb: did you mean 3mf?"),
         ({"format": ","}, "format: at least one is needed: known are stl, ply, 3mf, obj, glb"),

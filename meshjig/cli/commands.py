@@ -81,6 +81,7 @@ def make(
     """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
     set_verbosity(verbose, quiet)
     options = read_options(config, flags)
+    _refuse_no_name(mesh)
     _watch(options)
     if dry_run:
         from meshjig.pipeline.plan import plan_puzzle
@@ -128,6 +129,7 @@ def info(
     set_verbosity(verbose, quiet)
     flags |= {} if method is None else {"charts": method}
     options = read_options(None, flags, spelt={"charts": "method"})
+    _refuse_no_name(mesh)
     _watch(options)
     if charts or method or output:
         from meshjig.pipeline.prepare import describe_charts
@@ -251,10 +253,17 @@ def _watch(options: Options) -> None:
         watch_memory(options.memory)
 
 
-def _folder(given: Path) -> Path:
-    """Refuse an empty name, as an unset variable of a script gives it: it would stand for this folder."""
+def _refuse_no_name(mesh: str) -> None:
+    if not mesh:
+        raise OptionError("the name of the mesh is empty", hint="give that of a file")
+
+
+def _folder(given: Path, flag: str = "--output") -> Path:
+    """Refuse an empty name, as an unset variable of a script gives it, and a flag in its place."""
     if str(given) == ".":
-        raise OptionError("--output: it has to name a folder", hint="the current one is given by its name")
+        raise OptionError(f"{flag}: the name is empty", hint="give that of a folder")
+    if str(given).startswith("--"):
+        raise OptionError(f"{flag} needs a folder, and {given} follows", hint=f"write ./{given} if it is one")
     return given
 
 

@@ -15,6 +15,7 @@ from meshjig.runtime.bounded import Bounded, Limits, OutOfBounds
 
 __all__ = ["parse_toml", "read_options"]
 
+_EXAMPLE = 'a line of it is such as pieces = 30, or join = "round"'
 _LIMITS = Limits(memory=200e6, seconds=3.0)
 
 
@@ -48,12 +49,12 @@ def read_options(config: Path | None, flags: Flags, spelt: Mapping[str, str] | N
     given = {key: value for key, value in given.items() if _EITHER.get(key) not in flags}
     try:
         options = Options.of(**given | flags)
+        if {"tile", "plate"} & (given.keys() | flags.keys()):
+            from meshjig.pipeline.preflight import refuse_unknown_names
+
+            refuse_unknown_names(options)
     except OptionError as error:
         raise _located(error, config, flags, spelt or {}) from None
-    if {"tile", "plate"} & (given.keys() | flags.keys()):
-        from meshjig.pipeline.preflight import refuse_unknown_names
-
-        refuse_unknown_names(options)
     return options
 
 
@@ -71,7 +72,7 @@ def _read_toml(path: Path) -> Flags:
     try:
         return Bounded(__name__, "parse_toml", str(path), limits=_LIMITS).result()
     except OutOfBounds as error:
-        raise OptionError(f"config: {path} {error}", hint="look through it") from None
+        raise OptionError(f"--config: {path} {error}", hint="look through it") from None
 
 
 def parse_toml(name: str) -> Flags:
@@ -83,15 +84,17 @@ def parse_toml(name: str) -> Flags:
         It can't be read, or is no TOML.
     """
     path = Path(name)
-    if os.path.lexists(path) and not path.is_file():
-        raise OptionError(f"config: {path} is no file")
+    if not os.path.lexists(path):
+        raise OptionError(f"--config: {path} does not exist", hint="check the name")
+    if not path.is_file():
+        raise OptionError(f"--config: {path} is no file")
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise OptionError(f"config: {path} can't be read ({error.strerror})") from None
+        raise OptionError(f"--config: {path} can't be read ({error.strerror})") from None
     except RecursionError:
-        raise OptionError(f"config: {path} is nested too deeply") from None
+        raise OptionError(f"--config: {path} is nested too deeply") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise OptionError(f"config: {path} is no valid TOML ({error})") from None
+        raise OptionError(f"--config: {path} is no valid TOML ({error})", hint=_EXAMPLE) from None
     except ValueError:
-        raise OptionError(f"config: {path} holds a number of too many digits") from None
+        raise OptionError(f"--config: {path} holds a number of too many digits") from None

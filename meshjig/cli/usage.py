@@ -33,7 +33,7 @@ def usage_error(error: Any, words: Sequence[str]) -> OptionError:
     said = error.format_message().strip().rstrip(".")
     if "NoSuchOption" in names:
         flags = {flag.lstrip("-"): flag for flag in _flags(command)}
-        near = did_you_mean(error.option_name.lstrip("-"), flags)
+        near = did_you_mean(error.option_name.lstrip("-"), flags, least=0.7)
         for word, flag in flags.items():
             near = near.replace(f" {word}?", f" {flag}?")
         return OptionError(
@@ -41,7 +41,8 @@ def usage_error(error: Any, words: Sequence[str]) -> OptionError:
         )
     if "MissingParameter" in names:
         wanted = getattr(error.param, "metavar", None) or str(getattr(error.param, "name", "")).upper()
-        return OptionError(f"{path} needs a {wanted}, such as {path} {_EXAMPLES.get(wanted, wanted)}")
+        example = f"{path} {_EXAMPLES.get(wanted, wanted)}"
+        return OptionError(f"{path.removeprefix('meshjig ')} needs a {wanted}, such as {example}")
     if "BadOptionUsage" in names:
         needs = "takes no value" if "not take a value" in said else "needs a value"
         return OptionError(f"{error.option_name} {needs}", hint=f"see {path} --help")
@@ -50,7 +51,7 @@ def usage_error(error: Any, words: Sequence[str]) -> OptionError:
     if "extra argument" in said:
         extra = said[said.rindex("(") + 1 :].rstrip(")")
         return OptionError(
-            f"there is a word too many for {path}: {extra!r}", hint="put names that have spaces in quotes"
+            f"there is a word too many for {path}, {extra!r}", hint="put names that have spaces in quotes"
         )
     return OptionError(f"{said[:1].lower()}{said[1:]}", hint=f"see {path} --help")
 

@@ -77,7 +77,7 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
     if name in plugins:
         return _plugin_unit(plugins[name], seed, columns)
     known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *sorted(plugins), "FILE.svg"]
-    near = did_you_mean(name, [*known, "isohedral:IH01"])
+    near = did_you_mean(name, [*known, "isohedral:IH01"], least=0.8 if ":" in name else 0.6)
     raise OptionError(f"there is no tiling {name!r}", hint=f"{near} known are {', '.join(known)}".strip())
 
 

@@ -73,10 +73,10 @@ def parse_plate(text: str) -> Plate:
     if size is None:
         near = did_you_mean(name, PRINTERS)
         hint = f"{near} give WIDTHxDEPTH in mm, such as 220x220, or one of {', '.join(PRINTERS)}".strip()
-        raise OptionError(f"plate: {text!r} is not known", hint=hint)
+        raise OptionError(f"plate: {text!r} is not known", hint=hint, option="plate")
     plate = Plate(*(float(side) for side in size.groups() if side))
     if min(plate) <= 0:
-        raise OptionError(f"plate: {text!r} has no area", hint="give WIDTHxDEPTH in mm")
+        raise OptionError(f"plate: {text!r} has no area", hint="give WIDTHxDEPTH in mm", option="plate")
     return plate
 
 
