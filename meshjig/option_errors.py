@@ -135,7 +135,7 @@ def _as_number(value: Any, whole: bool, field: Any) -> str:
         return f"write {number / 100:g}"
     if unit in _MILLIMETRES and "mm" in re.findall("[a-z]+", field.description or ""):
         return f"lengths are in mm, so write {number * _MILLIMETRES[unit]:g}"
-    return f"write {number:g}" if unit in ("", "deg", "degrees", "°") else ""
+    return f"write {number:g}" if unit in ("", "deg", "degrees", "°", "gb") else ""
 
 
 def _either(words: Iterable[str]) -> str:

@@ -150,6 +150,11 @@ def test_an_option_of_tiles_asks_for_them():
         ({"join": "mitre"}, "join: 'mitre' is none of miter, round: did you mean miter?"),
         ({"faces": "al"}, "faces: 'al' is neither a whole number nor all: did you mean all?"),
         ({"faces": "50k"}, "faces: '50k' is neither a whole number nor all: write 50000"),
+        ({"memory": "4GB"}, "memory: '4GB' is no number: write 4"),
+        (
+            {"keep": "larges"},
+            "keep: 'larges' is neither a whole number nor largest nor all: did you mean largest?",
+        ),
         ({"angle": "45deg"}, "angle: '45deg' is no number: write 45"),
         ({"faces": 7}, "faces: 7 is too small: give at least 100, or 'all'"),
         ({"format": "stl,3fm"}, "format: '3fm' is none of stl, ply, 3mf, obj, glb: did you mean 3mf?"),
