@@ -16,6 +16,7 @@ from meshjig.errors import (
     MeshjigError,
     OptionError,
     OutputError,
+    ResourceError,
     SolidError,
 )
 
@@ -48,15 +49,16 @@ _HOMES = {
 }
 
 __all__ = [
+    "__version__",
+    "check",
     "ChartError",
     "CutError",
     "InputError",
     "MeshjigError",
     "OptionError",
     "OutputError",
+    "ResourceError",
     "SolidError",
-    "__version__",
-    "check",
     *_HOMES,
 ]
 

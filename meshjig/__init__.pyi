@@ -13,6 +13,7 @@ from meshjig.errors import InputError as InputError
 from meshjig.errors import MeshjigError as MeshjigError
 from meshjig.errors import OptionError as OptionError
 from meshjig.errors import OutputError as OutputError
+from meshjig.errors import ResourceError as ResourceError
 from meshjig.errors import SolidError as SolidError
 from meshjig.layout.stitch import stitch as stitch
 from meshjig.mesh.types import Atlas as Atlas

@@ -12,11 +12,12 @@ __all__ = ["main"]
 
 def main() -> "NoReturn":
     """Run the command line."""
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # they are foreign, and may be damaged
     if hasattr(os, "posix_spawn") and sys.executable:
         from meshjig.cli.front import run_in_front
 
         run_in_front()
-    from meshjig.cli.commands import run
+    from meshjig.cli.run import run
 
     run(sys.argv[1:])
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, TypedDict, Unpack, cast
+from typing import Annotated, Any, Literal, TypedDict, Unpack, cast, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 
-from meshjig.errors import OptionError
+from meshjig.errors import did_you_mean
+from meshjig.option_errors import option_error, refused, shown_value, spelling
 
 __all__ = ["PROCESSES", "OptionKeywords", "Options"]
 
@@ -23,7 +25,8 @@ PROCESSES: dict[str, Preset] = {
 
 OF_TILES = {"angle", "charts", "pole", "random_style", "tile"}
 OF_CELLS = {"crease_aware", "style"}
-_SAYINGS = {"extra_forbidden": "there is no such option", "too_short": "at least one is needed"}
+LONGEST = 100_000.0  # mm
+_MOST_SEED = 2**63 - 1
 
 
 class OptionKeywords(TypedDict, total=False):
@@ -89,9 +92,11 @@ class Options(BaseModel):
 
     pieces: int = Field(100, ge=1, le=100_000, description="number of pieces to aim for")
     piece_size: FiniteFloat | None = Field(
-        None, gt=0, description="edge of a piece, mm; takes the place of pieces"
+        None, gt=0, le=LONGEST, description="edge of a piece, mm; in place of --pieces"
     )
-    size: FiniteFloat | None = Field(None, gt=0, description="largest extent of the model, mm")
+    size: FiniteFloat | None = Field(
+        None, gt=0, le=LONGEST, description="largest extent of the model, mm; goes before --unit"
+    )
     unit: Literal["mm", "cm", "m", "inch", "auto"] = Field(
         "auto", description="unit of the file's numbers; auto: what the file says, else what is plausible"
     )
@@ -99,9 +104,12 @@ class Options(BaseModel):
         "all", description="connected parts to keep, by their area: largest, all, or how many"
     )
     drop_below: FiniteFloat | None = Field(
-        None, gt=0, description="cut off what is less than this above the lowest point, mm, along --up"
+        None,
+        gt=0,
+        le=LONGEST,
+        description="cut off what is less than this above the lowest point, mm, along --up",
     )
-    flat_base: Annotated[FiniteFloat, Field(gt=0)] | Literal["auto"] | None = Field(
+    flat_base: Annotated[FiniteFloat, Field(gt=0, le=LONGEST)] | Literal["auto"] | None = Field(
         None,
         description="as --drop-below, MM or auto (3 % of the height), closed to a stand or refused",
         json_schema_extra={"alone": "auto"},
@@ -113,27 +121,30 @@ class Options(BaseModel):
         "auto", description="axis that points upward; auto: what the file says, else as the shape suggests"
     )
     faces: Annotated[int, Field(ge=100)] | Literal["all"] = Field(
-        100_000, description="working resolution in faces, or 'all'"
+        100_000, description="working resolution in faces, at least 100, or all of them"
     )
-    thickness: FiniteFloat = Field(2.0, gt=0, description="thickness of the pieces, mm")
-    clearance: FiniteFloat = Field(0.2, ge=0, description="whole gap between two pieces, mm")
-    min_neck: FiniteFloat = Field(2.0, ge=0, description="least width of a knob's neck, mm")
-    min_wall: FiniteFloat = Field(1.2, ge=0, description="least thickness that prints well, mm")
+    thickness: FiniteFloat = Field(2.0, gt=0, le=LONGEST, description="thickness of the pieces, mm")
+    clearance: FiniteFloat = Field(0.2, ge=0, le=LONGEST, description="whole gap between two pieces, mm")
+    min_neck: FiniteFloat = Field(2.0, ge=0, le=LONGEST, description="least width of a knob's neck, mm")
+    min_wall: FiniteFloat = Field(1.2, ge=0, le=LONGEST, description="least thickness that prints well, mm")
     clearance_method: Literal["stretch", "domain", "solid"] = Field(
-        "solid", description="how the gap is made: solid, stretch or domain"
+        "solid",
+        description="how the gap is made: cut from the solids, or laid out in the plane (stretch, domain)",
     )
-    join: Literal["miter", "round"] = Field("miter", description="inner sheet along creases")
+    join: Literal["miter", "round"] = Field("miter", description="how the inner sheet turns at creases")
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
     layout: Literal["cells", "tiles"] = Field(
         "cells",
-        description="seam-free cells, or planar tiles on charts; tiles where an option of theirs is given",
+        description="seam-free cells, or planar tiles on charts; an option of tiles asks for these",
     )
     style: Literal["cvt", "quad"] = Field("cvt", description="cells: spread evenly, or four-sided")
-    knob_size: FiniteFloat = Field(1.0, gt=0, le=2, description="cells: size of the knobs, relative")
+    knob_size: FiniteFloat = Field(
+        1.0, gt=0, le=2, description="cells: size of the knobs, times the usual one, up to 2"
+    )
     crease_aware: bool = Field(False, description="cells: keep cells and knobs off creases")
-    tile: str = Field("classic", description="tiles: a name of meshjig tiles, or FILE.svg")
+    tile: str = Field("classic", description="tiles: one that meshjig tiles lists, or FILE.svg")
     random: FiniteFloat = Field(0.0, ge=0, le=1, description="how far pieces and knobs differ, 0 to 1")
     random_style: Literal["bspline", "bilinear"] = Field(
         "bspline", description="tiles: bend them smoothly, or with kinks"
@@ -143,16 +154,22 @@ class Options(BaseModel):
         0.25, ge=0, le=1, description="share of the mean area below which a piece joins a neighbour"
     )
     charts: Literal["auto", "lscm", "arap", "slim", "xatlas", "single", "periodic", "uv"] = Field(
-        "auto", description="how charts are made"
+        "auto", description="tiles: how the surface is cut into charts and flattened"
     )
     pole: Literal["wedge", "capstone"] = Field(
         "capstone", description="how tiles close a ring's end: wedges that meet there, or one piece over it"
     )
     fill_holes: FiniteFloat | None = Field(
-        None, ge=0, description="close holes up to this diameter, mm; half a tile if not given, 0 for none"
+        None,
+        ge=0,
+        le=LONGEST,
+        description="close holes up to this diameter, mm; half a tile if not given, 0 for none",
     )
     angle: FiniteFloat | None = Field(
-        None, description="how far tiles are turned from a chart's long axis, degrees; chosen if not given"
+        None,
+        ge=-360,
+        le=360,
+        description="how far tiles are turned from a chart's long axis, degrees; chosen if not given",
     )
     stitch: FiniteFloat = Field(
         0.3, ge=0, le=1, description="share of a border at which two tiles join over a seam"
@@ -163,16 +180,18 @@ class Options(BaseModel):
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     labels: bool = Field(False, description="engrave the number of every piece into its inner side")
     core: bool = Field(False, description="also make a core, on which the puzzle is built up")
-    seed: int = Field(0, ge=0, description="seed of everything random")
+    seed: int = Field(0, ge=0, le=_MOST_SEED, description="seed of everything random")
     format: tuple[Literal["stl", "ply", "3mf", "obj", "glb"], ...] = Field(
         ("stl", "3mf"), min_length=1, description="file formats to write, separated by commas"
     )
     plate: str | None = Field(
         None, description="also lay the pieces on plates: WIDTHxDEPTH in mm, or a printer such as prusa-mk4"
     )
-    nest: Literal["fast", "tight"] = Field("fast", description="how plates are packed; tight needs spyrrow")
+    nest: Literal["fast", "tight"] = Field(
+        "fast", description="how plates are packed; tight needs the package spyrrow"
+    )
     explode: FiniteFloat = Field(
-        0.6, ge=0, description="how far apart the exploded preview is, in distances from the middle"
+        0.6, ge=0, le=100, description="how far apart the exploded preview is, in distances from the middle"
     )
     viewer: bool = Field(True, description="write viewer.html")
     guide: bool = Field(True, description="write guide.pdf")
@@ -190,21 +209,19 @@ class Options(BaseModel):
         if isinstance(given.get("flat_base"), bool):
             given["flat_base"] = "auto" if given["flat_base"] else None
         if given.get("flat_base") is not None and given.get("drop_below") is not None:
-            raise ValueError("flat-base and drop-below are two cuts at one place: leave out one of them")
+            raise refused(
+                "flat_base", "drop-below is given as well, a cut at the same place", "give one of them"
+            )
         if isinstance(given.get("format"), str):
             given["format"] = tuple(part.strip() for part in given["format"].split(",") if part.strip())
+        _refuse_contradictions(cls.model_fields, given)
         known = PROCESSES | _own_processes(given.pop("processes", {}))
         process = given.get("process", "fdm")
         if not isinstance(process, str) or process not in known:
-            raise ValueError(f"process: {process!r} is not known; known are {', '.join(known)}")
-        if "layout" not in given and given.keys() & OF_TILES:
-            given["layout"] = "tiles"
-        layout = given.get("layout", "cells")
-        for name in sorted(given.keys() & {"cells": OF_TILES, "tiles": OF_CELLS}.get(layout, set())):
-            if given[name] != cls.model_fields[name].default:
-                raise ValueError(
-                    f"{name.replace('_', '-')}: the layout of {layout} has none: leave out one of them"
-                )
+            near = did_you_mean(process, known) if isinstance(process, str) else ""
+            raise refused(
+                "process", f"{shown_value(process)} is not known; known are {', '.join(known)}", near
+            )
         return {**known[process], **given}
 
     @classmethod
@@ -225,23 +242,43 @@ class Options(BaseModel):
         try:
             return cls(**cast(Any, given))
         except ValidationError as error:
-            first = error.errors()[0]
-            says = _SAYINGS.get(first["type"]) or first["msg"].removeprefix("Value error, ")
-            if not first["loc"]:
-                raise OptionError(says) from None
-            name = str(first["loc"][0]).replace("_", "-")
-            raise OptionError(f"{name}: {says[:1].lower()}{says[1:]}") from None
+            raise option_error(error.errors(), cls.model_fields) from None
+
+
+def _refuse_contradictions(fields: Mapping[str, FieldInfo], given: Preset) -> None:
+    """Refuse truth where a number is needed, two ways of saying one thing, and options of the other layout.
+
+    An option of tiles asks for them, where no layout is given.
+    """
+    for name in given.keys() & fields.keys():
+        annotation = fields[name].annotation
+        if isinstance(given[name], bool) and bool not in (annotation, *get_args(annotation)):
+            says = f"{shown_value(given[name])} is no value for it"
+            raise refused(name, says, "give another, or leave it out")
+    if "pieces" in given and "piece_size" in given:
+        says = "piece-size is given as well, and each of the two settles the other"
+        raise refused("pieces", says, "give one of them")
+    asking = sorted(given.keys() & OF_TILES)
+    layout = given.get("layout", "tiles" if asking else "cells")
+    other, foreign = {"cells": ("tiles", OF_TILES), "tiles": ("cells", OF_CELLS)}.get(str(layout), ("", ()))
+    for name in sorted(given.keys() & set(foreign)):
+        if given[name] != fields[name].default:
+            why = "" if "layout" in given else f", which {spelling(asking[0])} asks for"
+            says = f"this is for the layout of {other}, and the layout is {layout}{why}"
+            raise refused(name, says, "leave out one of them")
+    given["layout"] = layout
 
 
 def _own_processes(tables: Any) -> dict[str, Preset]:
     """Give a user's processes, after checking that they are such."""
     keys = list(PROCESSES["fdm"])
     if not isinstance(tables, dict) or not all(isinstance(table, dict) for table in tables.values()):
-        raise ValueError(f"processes: each is a table with any of {', '.join(keys)}")
+        raise refused("processes", f"each is a table with any of {', '.join(keys)}")
     own = {
         name: {key.replace("-", "_"): value for key, value in table.items()} for name, table in tables.items()
     }
     for name, table in own.items():
         for key in sorted(set(table) - set(keys)):
-            raise ValueError(f"processes: {name} sets {key!r}; a process has {', '.join(keys)} only")
+            says = f"{name} sets {spelling(key)!r}; a process has {', '.join(keys)} only"
+            raise refused("processes", says, did_you_mean(key, keys))
     return own

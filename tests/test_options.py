@@ -111,7 +111,7 @@ def test_a_config_file_holds_processes(toml, flags, tmp_path):
     ],
 )
 def test_what_the_layout_has_not_is_refused(given, name):
-    with pytest.raises(OptionError, match=f"^{name}: the layout of"):
+    with pytest.raises(OptionError, match=f"^{name}: this is for the layout of .*leave out one"):
         Options.of(**given)
 
 
@@ -119,3 +119,65 @@ def test_an_option_of_tiles_asks_for_them():
     assert Options.of(pole="wedge").layout == "tiles"
     assert Options.of(angle=10.0).layout == "tiles"
     assert Options.of().layout == "cells"
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"sise": 150}, "sise: there is no such option: did you mean size?"),
+        ({"min_pieces": 1}, "min-pieces: there is no such option: did you mean min-piece?"),
+        ({"zzz": 1}, "zzz: there is no such option: meshjig make --help lists them"),
+        ({"options": {"size": 3}}, "options: there is no such option: options stand in no table"),
+        ({"pieces": "many"}, "pieces: 'many' is no whole number"),
+        ({"pieces": 1.5}, "pieces: 1.5 is no whole number"),
+        ({"pieces": "1,000"}, "pieces: '1,000' is no whole number: write 1000"),
+        ({"pieces": 0}, "pieces: 0 is too small: give at least 1"),
+        ({"pieces": 10**6}, "pieces: 1000000 is too large: give at most 100000"),
+        ({"pieces": True}, "pieces: true is no value for it: give another, or leave it out"),
+        ({"size": "15cm"}, "size: '15cm' is no number: lengths are in mm, so write 150"),
+        ({"size": "1,5"}, "size: '1,5' is no number: write 1.5"),
+        ({"min_piece": "25%"}, "min-piece: '25%' is no number: write 0.25"),
+        ({"size": [1]}, "size: a list is no number"),
+        ({"size": float("inf")}, "size: inf is too large, or no number"),
+        ({"size": 1e300}, "size: 1e+300 is too large: give at most 100000"),
+        ({"clearance": 1e300}, "clearance: 1e+300 is too large: give at most 100000"),
+        ({"piece_size": 1e300}, "piece-size: 1e+300 is too large: give at most 100000"),
+        (
+            {"seed": 10**80},
+            "seed: a number of too many digits is too large: give at most 9223372036854775807",
+        ),
+        ({"thickness": 0}, "thickness: 0 is too small: give more than 0"),
+        ({"join": "mitre"}, "join: 'mitre' is none of miter, round: did you mean miter?"),
+        ({"faces": "al"}, "faces: 'al' is neither a whole number nor all: did you mean all?"),
+        ({"faces": "50k"}, "faces: '50k' is neither a whole number nor all: write 50000"),
+        ({"memory": "4GB"}, "memory: '4GB' is no number: write 4"),
+        (
+            {"keep": "larges"},
+            "keep: 'larges' is neither a whole number nor largest nor all: did you mean largest?",
+        ),
+        ({"angle": "45deg"}, "angle: '45deg' is no number: write 45"),
+        ({"faces": 7}, "faces: 7 is too small: give at least 100, or 'all'"),
+        ({"format": "stl,3fm"}, "format: '3fm' is none of stl, ply, 3mf, obj, glb: did you mean 3mf?"),
+        ({"format": ","}, "format: at least one is needed: known are stl, ply, 3mf, obj, glb"),
+        ({"labels": "perhaps"}, "labels: 'perhaps' is neither true nor false"),
+        ({"plate": 220}, "plate: 220 is no text: put it in quotes"),
+        (
+            {"process": "fmd"},
+            "process: 'fmd' is not known; known are fdm, sla, polyjet, foam: did you mean fdm?",
+        ),
+    ],
+)
+def test_a_sentence_says_what_is_wrong_and_what_to_write(given, sentence):
+    with pytest.raises(OptionError) as error:
+        Options.of(**given)
+    assert str(error.value) == sentence
+
+
+def test_pieces_and_their_size_can_not_both_be_given(tmp_path):
+    with pytest.raises(OptionError, match=r"^pieces: piece-size is given as well.*give one of them"):
+        Options.of(pieces=24, piece_size=60)
+    (tmp_path / "shop.toml").write_text("pieces = 24\n")
+    options = read_options(tmp_path / "shop.toml", {"piece_size": "60"})
+    assert (options.piece_size, options.pieces) == (60, 100)
+    (tmp_path / "shop.toml").write_text("piece-size = 60\n")
+    assert read_options(tmp_path / "shop.toml", {"pieces": "24"}).piece_size is None

@@ -37,6 +37,7 @@ EXPORTED = set(
         "OutputError",
         "Piece",
         "Puzzle",
+        "ResourceError",
         "SolidError",
         "__version__",
         "atlas",

@@ -119,9 +119,12 @@ def _refuse_what_is_no_disc(extracted: Extracted) -> None:
     if not len(bad):
         return
     used = np.unique(extracted.cut.mesh.F[extracted.cut.cell == bad[0]])
-    where = ", ".join(f"{x:.0f}" for x in extracted.cut.mesh.V[used].mean(0)) if len(used) else "nowhere"
+    where = ""
+    if len(used):
+        x, y, z = extracted.cut.mesh.V[used].mean(0)
+        where = f", the first around ({x:.0f}, {y:.0f}, {z:.0f}) mm"
     raise CutError(
-        f"{len(bad)} of {extracted.n} pieces would be rings or worse, the first around ({where})",
+        f"{len(bad)} of {extracted.n} pieces would be rings, or worse{where}",
         hint="ask for more pieces",
         ids=bad.tolist(),
     )

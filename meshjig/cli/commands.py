@@ -2,52 +2,42 @@
 
 from __future__ import annotations
 
-import faulthandler
-import io
 import json
-import os
 import signal
-import sys
-from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated
 
 import typer
 
-from meshjig.cli.config import Flags, read_options, takes_options
-from meshjig.cli.terminal import (
-    BROKEN_PROMISE,
-    USAGE,
-    as_lines,
-    emit,
-    progress_bar,
-    say,
-    sentences,
-    tell_broken,
-    tell_notes,
-)
+from meshjig.cli.config import read_options
+from meshjig.cli.endings import BROKEN_PROMISE, EPILOG, Ending, broken_promises
+from meshjig.cli.flags import Flags, takes_options
+from meshjig.cli.lines import as_lines
+from meshjig.cli.streams import emit, say, set_verbosity
+from meshjig.cli.terminal import progress_bar, tell_next_step, tell_notes
 from meshjig.errors import OptionError
 from meshjig.options import Options
 from meshjig.runtime.bounded import ReadAhead
-from meshjig.runtime.interpreter import end_with_parent
-from meshjig.runtime.messages import tell, tell_through
 
-__all__ = ["app", "run", "run_behind_front"]
+__all__ = ["app"]
 
 app = typer.Typer(
     name="meshjig",
     help="Turn a triangle mesh into a printable 3D jigsaw puzzle of its surface.",
-    no_args_is_help=True,
+    epilog=EPILOG,
+    context_settings={"help_option_names": ["--help", "-h"]},
     add_completion=False,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,
 )
 
 MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, GLB or 3MF file")]
 Config = Annotated[
     Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="print the result as JSON on standard output")]
+AsJson = Annotated[
+    bool, typer.Option("--json", help="print the result, or the failure, as JSON on standard output")
+]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
 
@@ -72,7 +62,10 @@ def make(
     mesh: MeshPath,
     flags: Flags,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="DIR", help="default: <mesh name>-jigsaw")
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="DIR", help="folder of the puzzle (default: <mesh name>-jigsaw)"
+        ),
     ] = None,
     config: Config = None,
     dry_run: Annotated[
@@ -86,35 +79,34 @@ def make(
     quiet: Quiet = False,
 ) -> None:
     """Make a puzzle: pieces, 3MF, preview, viewer, guide and report."""
-    with sentences(verbose, quiet):
-        options = read_options(config, flags)
-        _watch(options)
-        if dry_run:
-            from meshjig.pipeline.plan import plan_puzzle
+    set_verbosity(verbose, quiet)
+    options = read_options(config, flags)
+    _refuse_no_name(mesh)
+    _watch(options)
+    if dry_run:
+        from meshjig.pipeline.plan import plan_puzzle
 
-            plan = plan_puzzle(mesh, options)
-            emit(json.dumps(plan, indent=2) if as_json else as_lines(plan))
-            raise typer.Exit
-        from meshjig.output.folder import reserve_folder
+        plan = plan_puzzle(mesh, options)
+        emit(json.dumps(plan, indent=2) if as_json else as_lines(plan))
+        raise typer.Exit
+    from meshjig.output.folder import reserve_folder
+    from meshjig.output.report import report_file
 
-        target = output or Path(f"{Path(mesh).stem}-jigsaw")
-        inputs: list[str | Path] = [mesh, *([config] if config else [])]
-        with reserve_folder(target, inputs=inputs), progress_bar(quiet or verbose) as progress:
-            scan = ReadAhead(mesh)
-            from meshjig.pipeline.make import make_puzzle
+    target = Path(f"{Path(mesh).stem}-jigsaw") if output is None else _folder(output)
+    inputs: list[str | Path] = [mesh, *([config] if config else [])]
+    with reserve_folder(target, inputs=inputs), progress_bar(quiet or verbose) as progress:
+        scan = ReadAhead(mesh)
+        from meshjig.pipeline.make import make_puzzle
 
-            puzzle = make_puzzle(scan, progress=progress, options=options, debug_dir=debug_dir)
-            progress("write", "start")
-            puzzle.save(target)
-        if not quiet:
-            n = len(puzzle.pieces)
-            say(f"{n} piece{'s' if n > 1 else ''} in {target}")
-            tell_notes(puzzle.report)
-        if as_json:
-            emit((target / "report.json").read_text(encoding="utf-8"))
-    if not puzzle.report["ok"]:
-        tell_broken(puzzle.report["failures"])
-        raise typer.Exit(BROKEN_PROMISE)
+        puzzle = make_puzzle(scan, progress=progress, options=options, debug_dir=debug_dir)
+        progress("write", "start")
+        puzzle.save(target)
+    if not quiet:
+        n = len(puzzle.pieces)
+        say(f"{n} piece{'s' if n > 1 else ''} in {target}")
+        tell_notes(puzzle.report)
+        tell_next_step(puzzle.report, target)
+    _answer(json.loads(report_file(target / "report.json")) if as_json else {}, puzzle.report["failures"])
 
 
 @app.command()
@@ -123,7 +115,9 @@ def info(
     mesh: MeshPath,
     flags: Flags,
     charts: Annotated[bool, typer.Option("--charts", help="also cut it into charts and judge them")] = False,
-    method: Annotated[str | None, typer.Option(help="how charts are made, as make's --charts")] = None,
+    method: Annotated[
+        str | None, typer.Option(metavar="NAME", help="how charts are made, as make's --charts")
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="with --charts, draw them there")
     ] = None,
@@ -132,26 +126,28 @@ def info(
     quiet: Quiet = False,
 ) -> None:
     """Say what a mesh is, and what would be done to it."""
-    with sentences(verbose, quiet):
-        options = read_options(None, flags | ({"charts": method} if method else {}))
-        _watch(options)
-        if charts or method or output:
-            from meshjig.pipeline.prepare import describe_charts
+    set_verbosity(verbose, quiet)
+    flags |= {} if method is None else {"charts": method}
+    options = read_options(None, flags, spelt={"charts": "method"})
+    _refuse_no_name(mesh)
+    _watch(options)
+    if charts or method or output:
+        from meshjig.pipeline.prepare import describe_charts
 
-            facts = describe_charts(mesh, options, output)
-        else:
-            scan = ReadAhead(mesh)
-            from meshjig.scan import Preparation, describe
+        facts = describe_charts(mesh, options, output and _folder(output))
+    else:
+        scan = ReadAhead(mesh)
+        from meshjig.scan import Preparation, describe
 
-            found = describe(
-                scan,
-                size=options.size,
-                faces=options.faces,
-                cavities=options.cavities,
-                preparation=Preparation(memory=options.memory),
-            )
-            facts = dict(found.as_dict())
-        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+        found = describe(
+            scan,
+            size=options.size,
+            faces=options.faces,
+            cavities=options.cavities,
+            preparation=Preparation(memory=options.memory),
+        )
+        facts = dict(found.as_dict())
+    emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 @app.command()
@@ -167,15 +163,15 @@ def check(
 
     Of a report.json in the folder, what was asked for and who borders on whom is used; flags win.
     """
-    with sentences(verbose, quiet):
-        from meshjig.pipeline.check_folder import check_folder
+    set_verbosity(verbose, quiet)
+    from meshjig.pipeline.check_folder import check_folder
 
-        result = check_folder(paths, flags)
+    options = read_options(None, flags)
+    result = check_folder(paths, {name: getattr(options, name) for name in flags})
+    if not as_json:
         shown = result["checks"] | {key: result[key] for key in ("names", "core") if key in result}
-        emit(json.dumps(result, indent=2) if as_json else as_lines(shown))
-    if not result["ok"]:
-        tell_broken(result["failures"])
-        raise typer.Exit(BROKEN_PROMISE)
+        emit(as_lines(shown, missing="not measured"))
+    _answer(result if as_json else {}, result["failures"])
 
 
 @app.command()
@@ -190,16 +186,16 @@ def coupon(
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
-    """Make a set of test knobs that tells which clearance your printer needs."""
-    with sentences(verbose, quiet):
-        from meshjig.pipeline.coupon import save_coupon
+    """Make test knobs that tell which clearance your printer needs."""
+    set_verbosity(verbose, quiet)
+    from meshjig.pipeline.coupon import save_coupon
 
-        report = save_coupon(output, read_options(config, flags))
-        if as_json:
-            emit((output / "report.json").read_text(encoding="utf-8"))
-        elif not quiet:
-            say(f"{len(report['pieces'])} tiles in {output}")
-            say(report["how_to"])
+    report = save_coupon(_folder(output), read_options(config, flags))
+    if as_json:
+        emit((output / "report.json").read_text(encoding="utf-8"))
+    elif not quiet:
+        say(f"{len(report['pieces'])} tiles in {output}")
+        say(report["how_to"])
 
 
 @app.command()
@@ -210,45 +206,43 @@ def view(
     quiet: Quiet = False,
 ) -> None:
     """Open a puzzle's viewer in the browser."""
-    with sentences(verbose, quiet):
-        from meshjig.output.viewer.page import open_viewer
+    set_verbosity(verbose, quiet, libraries=True)  # a browser may have to say something
+    from meshjig.output.viewer.page import open_viewer
 
-        if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a run
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-        page = open_viewer(directory)
-        if as_json:
-            emit(json.dumps({"viewer": str(page)}))
+    if hasattr(signal, "pthread_sigmask"):  # a browser must hear Ctrl-C, which is kept from a run
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    page = open_viewer(directory)
+    if as_json:
+        emit(json.dumps({"viewer": str(page)}))
 
 
 @app.command()
+@takes_options("seed")
 def tiles(
+    flags: Flags,
     name: Annotated[str | None, typer.Argument(help="of a tiling; all are listed if none is given")] = None,
     svg: Annotated[Path | None, typer.Option("--svg", metavar="FILE", help="draw it there")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="seed of everything random")] = 0,
     as_json: AsJson = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
 ) -> None:
     """List the tilings, or draw one."""
-    with sentences(verbose, quiet):
-        from meshjig.tiling.registry import family_names, get_decor, get_family
+    set_verbosity(verbose, quiet)
+    from meshjig.tiling.registry import family_names, get_decor, get_family
 
-        if name is None:
-            known = dict(family_names())
-            emit(json.dumps(known, indent=2) if as_json else as_lines(known))
-            return
-        try:
-            unit = get_family(name, seed)
-        except OptionError as error:
-            say(f"meshjig: {error}")
-            raise typer.Exit(USAGE) from None
-        if svg is not None:
-            from meshjig.output.folder.text_file import write_svg_file
-            from meshjig.tiling.draw import draw_svg
+    seed = read_options(None, flags).seed
+    if name is None:
+        known = dict(family_names())
+        emit(json.dumps(known, indent=2) if as_json else as_lines(known))
+        return
+    unit = get_family(name, seed)
+    if svg is not None:
+        from meshjig.output.folder.text_file import write_svg_file
+        from meshjig.tiling.draw import draw_svg
 
-            write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
-        facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
-        emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+        write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
+    facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
+    emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
 def _watch(options: Options) -> None:
@@ -259,31 +253,29 @@ def _watch(options: Options) -> None:
         watch_memory(options.memory)
 
 
-def run(words: Sequence[str]) -> NoReturn:
-    """Run the command line, and end the process.
-
-    It ends at once: whatever libraries would still do on their way out can only fail by now.
-    """
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
-    if {"-v", "--verbose"} & set(words):
-        faulthandler.enable()
-    code: Any = 0
-    try:
-        app(args=list(words), prog_name="meshjig")
-    except SystemExit as ending:
-        code = ending.code
-    for stream in (sys.stdout, sys.stderr):
-        with suppress(OSError, ValueError, AttributeError):
-            stream.flush()
-    code = code if isinstance(code, int) else int(code is not None)
-    tell("ended", code)
-    os._exit(code)
+def _refuse_no_name(mesh: str) -> None:
+    if not mesh:
+        raise OptionError("the name of the mesh is empty", hint="give that of a file")
 
 
-def run_behind_front(front: str, pipe: str, *words: str) -> NoReturn:
-    """Run the command line as the child of a process that ends it when asked to; see `run_in_front`."""
-    end_with_parent(int(front))
-    tell_through(int(pipe))
-    run(words)
+def _folder(given: Path, flag: str = "--output") -> Path:
+    """Refuse an empty name, as an unset variable of a script gives it, and a flag in its place."""
+    if str(given) == ".":
+        raise OptionError(f"{flag}: the name is empty", hint="give that of a folder")
+    if str(given).startswith("--"):
+        raise OptionError(f"{flag} needs a folder, and {given} follows", hint=f"write ./{given} if it is one")
+    return given
+
+
+def _answer(answer: dict[str, object], failures: dict[str, list[str]]) -> None:
+    """Print an answer as JSON, if there is one, name the promises that are broken, and end accordingly."""
+    broken = broken_promises(failures)
+    if broken:
+        ending = Ending("promise", "; ".join(broken), "", "check", BROKEN_PROMISE)
+        answer = answer and answer | ending.as_dict()
+    if answer:
+        emit(json.dumps(answer, indent=2, ensure_ascii=False))
+    for sentence in broken:
+        say(f"meshjig: {sentence}")
+    if broken:
+        raise typer.Exit(BROKEN_PROMISE)

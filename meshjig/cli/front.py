@@ -16,9 +16,10 @@ if TYPE_CHECKING:
     from types import FrameType
     from typing import NoReturn
 
+    from meshjig.cli.endings import Ending
+
 __all__ = ["run_in_front"]
 
-_CRASHED, _NO_MEMORY, _CUT_OFF = 1, 5, 128  # exit codes; to the second, the number of the signal is added
 _LEAST_SPACE = 1e9  # bytes of address space; with 0.4e9 libraries wait for threads that can't start
 _CRASHES = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGBUS": "a bus error"}
 _SHOW_CURSOR = b"\r\x1b[K\x1b[?25h"  # a progress line may have hidden it
@@ -66,7 +67,7 @@ def _wait_for_run() -> tuple[int, int]:
     reading, writing = os.pipe()
     os.set_inheritable(writing, True)
     words = [str(os.getpid()), str(writing), *sys.argv[1:]]
-    command = interpreter_command("meshjig.cli.commands", "run_behind_front", *words)
+    command = interpreter_command("meshjig.cli.run", "run_behind_front", *words)
     _run = os.posix_spawn(command[0], command, os.environ, setsigmask=[signal.SIGINT])
     os.close(writing)
     if _asked_by:
@@ -84,8 +85,6 @@ def _leave(reading: int, status: int) -> NoReturn:
     written = {str(value) for word, value in told if word == "written"}
     ended = [int(value) for word, value in told if word == "ended"]
     number = _asked_by or (os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0)
-    if not number and not ended:  # ended by an exit of its own, as some libraries do
-        ended = [os.waitstatus_to_exitcode(status)]
     if ended and not _asked_by:
         os._exit(ended[-1])
     if os.isatty(2):
@@ -97,22 +96,39 @@ def _leave(reading: int, status: int) -> NoReturn:
             os.rmdir(parent)
         except OSError:
             continue
-    name = signal.Signals(number).name if number else "an exit of its own"
-    done = f"{', '.join(sorted(written))} is whole" if written else "nothing was written"
+    _tell_ending(number, sorted(written), dict(told))
+
+
+def _tell_ending(number: int, written: list[str], told: dict[str, str | int]) -> NoReturn:
+    """Say by what signal the run has ended, and end likewise."""
+    from meshjig.cli.endings import BUG, CUT_OFF, NO_RESOURCES, Ending
+
+    name = signal.Signals(number).name if number else "an exit of its own"  # as some libraries have it
+    done = f"{', '.join(written)} is whole" if written else "nothing was written"
+    stage = str(told["stage"]) if "stage" in told else None
+    short = told.get("memory") or _short_of_address_space(name)
     if _asked_by or name in ("SIGTERM", "SIGHUP", "SIGINT"):
-        _say(f"meshjig: interrupted; {done}")
-        os._exit(_CUT_OFF + number)
-    short = dict(told).get("memory") or _short_of_address_space(name)
-    if short:
-        _say(f"meshjig: {short}; {done}: use a mesh of fewer faces, or allow more memory")
-        os._exit(_NO_MEMORY)
-    if name == "SIGKILL":
-        _say(f"meshjig: the run was killed, perhaps for want of memory; {done}: use fewer faces (--faces)")
+        ending = Ending("interrupted", f"interrupted; {done}", "", stage, CUT_OFF + number)
+    elif short:
+        hint = "use a mesh of fewer faces, or allow more memory"
+        ending = Ending("resources", f"{short}; {done}", hint, stage, NO_RESOURCES)
+    elif name == "SIGKILL":
+        message = f"the run was killed, perhaps for want of memory; {done}"
+        ending = Ending("killed", message, "use fewer faces (--faces)", stage, CUT_OFF + number)
     else:
-        _say(
-            f"meshjig: native code ended by {_CRASHES.get(name, name)}; {done}: this is a bug, -v shows where"
-        )
-    os._exit(_CRASHED)
+        message = f"native code ended by {_CRASHES.get(name, name)}; {done}"
+        ending = Ending("bug", message, "this is a bug, -v shows where", stage, BUG)
+    _end(ending, "answered" in told)
+
+
+def _end(ending: Ending, answered: bool = False) -> NoReturn:
+    """Tell of an ending, on standard output too unless something is there already."""
+    from meshjig.cli.endings import wants_json
+
+    _write(2, f"meshjig: {ending.sentence}\n")
+    if wants_json(sys.argv[1:]) and not answered:
+        _write(1, ending.as_json() + "\n")
+    os._exit(ending.exit)
 
 
 def _refuse_little_memory() -> None:
@@ -122,11 +138,11 @@ def _refuse_little_memory() -> None:
     most = resource.getrlimit(resource.RLIMIT_AS)[0]
     needs_it = sys.argv[1:2] in (["make"], ["info"], ["check"])
     if needs_it and most != resource.RLIM_INFINITY and most < _LEAST_SPACE:
-        _say(
-            f"meshjig: only {most / 1e9:.2g} GB of address space are allowed (ulimit -v), "
-            f"and {_LEAST_SPACE / 1e9:g} GB is the least; nothing was written: allow more"
-        )
-        os._exit(_NO_MEMORY)
+        from meshjig.cli.endings import NO_RESOURCES, Ending
+
+        allowed = f"only {most / 1e9:.2g} GB of address space are allowed (ulimit -v)"
+        message = f"{allowed}, and {_LEAST_SPACE / 1e9:g} GB is the least; nothing was written"
+        _end(Ending("resources", message, "allow more", None, NO_RESOURCES))
 
 
 def _short_of_address_space(name: str) -> str:
@@ -152,8 +168,8 @@ def _clear_up(target: str) -> bool:
         return False
 
 
-def _say(sentence: str) -> None:
+def _write(stream: int, text: str) -> None:
     try:
-        os.write(2, (sentence + "\n").encode("utf-8", "replace"))
+        os.write(stream, text.encode("utf-8", "backslashreplace"))
     except OSError:
         return

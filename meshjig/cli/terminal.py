@@ -1,119 +1,62 @@
-"""What a person at a terminal sees: sentences, progress, and a clean end."""
+"""What a person at a terminal sees of a run: its progress, and what to know of its result."""
 
 from __future__ import annotations
 
-import logging
-import os
-import sys
+import shlex
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-import typer
+from meshjig.cli.streams import error_stream, say
+from meshjig.runtime.messages import tell
 
-from meshjig.errors import MeshjigError, OutputError, ResourceError
-from meshjig.runtime.messages import folders_written
-
-__all__ = [
-    "BROKEN_PROMISE",
-    "FAILED",
-    "INTERRUPTED",
-    "USAGE",
-    "as_lines",
-    "emit",
-    "outcome",
-    "progress_bar",
-    "say",
-    "sentences",
-    "tell_broken",
-    "tell_notes",
-]
-
-FAILED, USAGE, BROKEN_PROMISE, RESOURCES, INTERRUPTED = 1, 2, 3, 5, 130
-
-
-def say(sentence: str) -> None:
-    """Print to standard error, if somebody listens there."""
-    with suppress(OSError, ValueError, AttributeError):  # full or closed; it is no reason to end
-        print(sentence, file=sys.stderr, flush=True)
-
-
-def emit(text: str) -> None:
-    """Print a result to standard output.
-
-    Raises
-    ------
-    OutputError
-        It can't be written. A reader that has gone away is none of our business.
-    """
-    try:
-        print(text, flush=True)
-    except BrokenPipeError:
-        _close_output()
-    except (OSError, ValueError) as error:
-        _close_output()
-        reason = (getattr(error, "strerror", None) or str(error)).lower()
-        raise OutputError(f"standard output can't be written ({reason}); {outcome()}") from None
-
-
-def outcome() -> str:
-    """Say what this run has written, after a sentence on why it ends."""
-    folders = folders_written()
-    return f"{', '.join(folders)} is whole" if folders else "nothing was written"
-
-
-@contextmanager
-def sentences(verbose: bool, quiet: bool) -> Iterator[None]:
-    """Turn whatever goes wrong into one sentence on standard error, and an exit code."""
-    level = logging.DEBUG if verbose else logging.ERROR if quiet else logging.WARNING
-    logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(message)s")
-    logging.getLogger("meshjig").setLevel(level)
-    logging.getLogger("meshjig.told").setLevel(logging.ERROR if quiet else logging.INFO)
-    try:
-        yield
-    except MeshjigError as error:
-        say(f"meshjig: {error}")
-        raise typer.Exit(RESOURCES if isinstance(error, ResourceError) else FAILED) from None
-    except KeyboardInterrupt:
-        say(f"meshjig: interrupted; {outcome()}")
-        raise typer.Exit(INTERRUPTED) from None
-    except MemoryError:
-        say("meshjig: not enough memory: use fewer faces (--faces)")
-        raise typer.Exit(RESOURCES) from None
-    except typer.Exit:
-        raise
-    except Exception as error:
-        if verbose:
-            logging.getLogger("meshjig").exception("unexpected failure")
-        reason = f"{type(error).__name__}: {error}".splitlines()[0]
-        say(f"meshjig: unexpected failure ({reason}); {outcome()}, and this is a bug: -v shows where")
-        raise typer.Exit(FAILED) from None
+__all__ = ["progress_bar", "tell_next_step", "tell_notes"]
 
 
 @contextmanager
 def progress_bar(silent: bool) -> Iterator[Callable[[str, str], None]]:
     """Give a callback that shows the stage that runs, on standard error, when somebody watches."""
-    if silent or sys.stderr is None or not sys.stderr.isatty():
-        yield lambda stage, event: None
+    stream = error_stream()
+    if silent or stream is None or not stream.isatty():
+        yield _remember
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
     def show(stage: str, event: str) -> None:
+        _remember(stage, event)
         if event == "start":
             bar.update(task, description=stage)
 
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=Console(file=stream), transient=True) as bar:
         task = bar.add_task("scan")
         yield show
 
 
-def tell_broken(failures: dict[str, list[str]]) -> None:
-    """Name every broken promise and the pieces that break it."""
-    for promise, names in failures.items():
-        shown = ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
-        say(f"meshjig: broken promise: {promise}" + (f" ({shown})" if names else ""))
+def _remember(stage: str, event: str) -> None:
+    """Keep the stage that runs for the sentence of a run that ends in it."""
+    if event == "start":
+        tell("stage", stage)
+
+
+def tell_next_step(report: Mapping[str, Any], target: Path) -> None:
+    """Say what to look at, and what to print."""
+    options = report["options"]
+    look = (
+        f"meshjig view {shlex.quote(str(target))} shows it" if options["viewer"] else "preview.png shows it"
+    )
+    if report.get("plates"):
+        what = "print the files in plates/, which plates.png shows"
+    elif "3mf" in options["format"]:
+        what = "print puzzle.3mf"
+    elif {"stl", "ply"} & set(options["format"]):
+        what = "print what is in pieces/"
+    else:
+        what = f"print puzzle.{options['format'][0]}"
+    guide = "; guide.pdf tells how to put it together" if options["guide"] else ""
+    say(f"next: {look}; {what}{guide}")
 
 
 def tell_notes(report: Mapping[str, Any]) -> None:
@@ -144,24 +87,3 @@ def tell_notes(report: Mapping[str, Any]) -> None:
     for fact in report.get("plates", ()):
         if fact["plate"] is None:
             say(f"meshjig: note: {fact['why']}")
-
-
-def as_lines(facts: Mapping[str, Any], indent: str = "") -> str:
-    """Write facts for people, a line each."""
-    lines = []
-    for key, value in facts.items():
-        if isinstance(value, Mapping):
-            lines.append(f"{indent}{key}:")
-            lines.append(as_lines(value, indent + "  "))
-        else:
-            shown = f"{value:.4g}" if isinstance(value, float) else "not known" if value is None else value
-            lines.append(f"{indent}{key}: {shown}")
-    return "\n".join(lines)
-
-
-def _close_output() -> None:
-    """Let what is still to be printed go nowhere."""
-    with suppress(OSError, ValueError, AttributeError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        os.close(nowhere)

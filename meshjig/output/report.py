@@ -29,6 +29,7 @@ __all__ = [
 
 Report = dict[str, Any]  # what report.json holds
 _DIGITS = 7
+_MOST_PARTS = 10_000  # of a core
 _LARGEST = 16_000_000  # bytes; reports of 10,000 pieces have a third of it
 
 
@@ -80,7 +81,7 @@ def write_report(path: Path, report: Mapping[str, Any]) -> None:
 def title_of(report: Mapping[str, Any]) -> str:
     """Give the name of the model's file, or Puzzle."""
     name = report.get("input", {}).get("file")
-    return Path(str(name)).stem if name else "Puzzle"
+    return _encodable(Path(str(name)).stem) if name else "Puzzle"
 
 
 def report_text(report: Mapping[str, Any]) -> str:
@@ -111,9 +112,14 @@ def _plain(value: Any) -> Any:
         return [_plain(item) for item in value]
     if isinstance(value, float):
         return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
-    if value is None or isinstance(value, bool | int | str):
+    if value is None or isinstance(value, bool | int):
         return value
-    return str(value)
+    return _encodable(str(value))
+
+
+def _encodable(text: str) -> str:
+    """Escape what is no text: bytes of a file's name that are no UTF-8."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 class Expectations(NamedTuple):
@@ -151,16 +157,19 @@ def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) ->
         options = report["options"]
         return Expectations(
             _neighbours(report["pieces"], names),
-            thickness=options.get("thickness"),
-            clearance=options.get("clearance"),
-            min_wall=options.get("min_wall"),
-            exempt_pieces=tuple(report.get("exempt_pieces", ())),
+            thickness=_length(options.get("thickness")),
+            clearance=_length(options.get("clearance")),
+            min_wall=_length(options.get("min_wall")),
+            exempt_pieces=tuple(str(name) for name in report.get("exempt_pieces", ())),
         )
-    except (ValueError, KeyError, TypeError, AttributeError):
-        raise InputError(
-            "report.json is no report of meshjig, or damaged",
-            hint="remove it to judge the pieces by themselves",
-        ) from None
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError):
+        raise _damaged() from None
+
+
+def _damaged() -> InputError:
+    return InputError(
+        "report.json is no report of meshjig, or damaged", hint="remove it to judge the pieces by themselves"
+    )
 
 
 def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list[str]:
@@ -170,14 +179,33 @@ def read_missing(report: Mapping[str, Any] | None, names: Sequence[str]) -> list
     ----------
     report : mapping, or None where there is none
     names : names of the pieces, and parts of the core, that were read
+
+    Raises
+    ------
+    InputError
+        The report is damaged.
     """
     if report is None:
         return []
-    listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
+    try:
+        listed = [f"piece_{piece['id']:03d}" for piece in report["pieces"]]
+        parts = range(report.get("core", {}).get("parts", 0))
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise _damaged() from None
+    if len(parts) > _MOST_PARTS:
+        raise _damaged()
     if not set(listed) & set(names):
         return []  # the pieces go by other names
-    listed += [f"core_{i + 1}" for i in range(report.get("core", {}).get("parts", 0))]
-    return sorted(set(listed) - set(names))
+    return sorted({*listed, *(f"core_{i + 1}" for i in parts)} - set(names))
+
+
+def _length(value: Any) -> float | None:
+    """Give a length in mm, or None where there is none; a ValueError where it is none."""
+    if value is None:
+        return None
+    if isinstance(value, bool | str) or not 0 <= float(value) < math.inf:
+        raise ValueError(value)
+    return float(value)
 
 
 def _neighbours(pieces: list[Report], names: Sequence[str]) -> list[tuple[int, int]] | None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshjig.errors import OutputError
+from meshjig.errors import OutputError, write_error
 from meshjig.layout.layout import Layout
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.mesh import Mesh, concatenate
@@ -50,7 +50,7 @@ class StagePictures:
             self.folder.mkdir(parents=True, exist_ok=True)
             held = {path.name for path in self.folder.iterdir()}
         except OSError as error:
-            raise OutputError(f"{folder} can't be made a folder: {error.strerror}") from None
+            raise write_error(f"the folder {folder}", error, "choose another with --debug-dir") from None
         if not held <= set(STAGES):
             raise OutputError(f"{folder} holds something else than pictures of stages", hint="name a new one")
 

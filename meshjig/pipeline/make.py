@@ -98,7 +98,7 @@ def make_puzzle(
             pictures.atlas(atlas)
             layout = tile_layout(atlas, options, stages)
         pictures.layout(layout)
-        _refuse_a_hollow_piece(layout)
+        _refuse_a_hollow_piece(layout, options)
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
@@ -197,14 +197,16 @@ def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> Mappe
     return refine_atlas(chart(scan, options), longest)
 
 
-def _refuse_a_hollow_piece(layout: Layout) -> None:
+def _refuse_a_hollow_piece(layout: Layout, options: Options) -> None:
     """Refuse to make the model's main part, where it is closed, a single piece: it would be hollow."""
     F, piece = layout.cut.F, layout.piece_of_face
     n, component = components(F)
     main = component == np.bincount(component, face_areas(layout.cut.V, F), n).argmax()
     open_parts = component[border_halfedges(F) // 3]
     if np.ptp(piece[main]) == 0 and not np.isin(component[main][:1], open_parts).any():
-        raise OptionError("pieces: the model would be a single hollow piece", hint="ask for more pieces")
+        joined = options.min_piece > Options.model_fields["min_piece"].default
+        hint = f"use a smaller --min-piece than {options.min_piece:g}" if joined else "ask for more pieces"
+        raise OptionError("the model would be a single hollow piece", hint=hint)
 
 
 def _leave_gaps(layout: Layout, options: Options) -> Parts:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 
 from meshjig.errors import OptionError
@@ -38,12 +41,15 @@ def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:
     smallest = (2 * options.clearance + 0.1) / neck  # half of the neck is left
     if size >= smallest:
         return
-    most, widest = int(area / smallest**2), max(neck * size / 2 - 0.05, 0.0)
-    larger = f"pieces of at least {smallest:.2g} mm" if options.piece_size else f"at most {most} pieces"
+    most, widest = int(area / smallest**2), _two_digits(neck * size / 2 - 0.05, math.floor)
+    larger = f"at most {most} pieces"
+    if options.piece_size:
+        larger = f"pieces of at least {_two_digits(smallest, math.ceil):g} mm"
+    ways = [f"a clearance of at most {widest:g} mm"] * (widest > 0) + [larger] * (most >= FEWEST)
     raise OptionError(
         f"pieces of {size:.2g} mm have knobs with a neck of {neck * size:.2g} mm, "
         f"too narrow for a clearance of {options.clearance:g} mm",
-        hint=f"use a clearance of at most {widest:.2g} mm" + (f", or {larger}" if most >= FEWEST else ""),
+        hint=f"use {' or '.join(ways) or 'a larger --size'}",
     )
 
 
@@ -82,6 +88,14 @@ def refuse_unknown_names(options: Options) -> None:
         get_family(options.tile, options.seed)
     if options.plate is not None:
         parse_plate(options.plate)
+
+
+def _two_digits(value: float, rounding: Callable[[float], int]) -> float:
+    """Round to two digits that count, down or up, so that what is printed still holds; 0 for nothing."""
+    if value <= 0:
+        return 0.0
+    decimals = 1 - math.floor(math.log10(value))
+    return round(rounding(value * 10.0**decimals) / 10.0**decimals, max(decimals, 0))
 
 
 def _neck_of_tiles(options: Options) -> float | None:

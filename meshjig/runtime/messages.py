@@ -6,10 +6,11 @@ import json
 import os
 from collections.abc import Iterator
 
-__all__ = ["folders_written", "read_messages", "tell", "tell_through"]
+__all__ = ["folders_written", "read_messages", "stage_under_way", "tell", "tell_through"]
 
 _pipe: int | None = None
 _written: list[str] = []
+_stages: list[str] = []
 
 
 def tell_through(pipe: int) -> None:
@@ -23,8 +24,11 @@ def tell(word: str, value: str | int) -> None:
     """Tell the process in front, if there is one, about a folder or an exit code.
 
     The messages are ``target``, a folder that is to be replaced; ``parent``, a folder that is made for one;
-    ``written``, a target that is in place, whole; ``ended``, with the exit code.
+    ``written``, a target that is in place, whole; ``stage``, one that begins; ``answered``, once something
+    is printed on standard output; ``ended``, with the exit code.
     """
+    if word == "stage":
+        _stages.append(str(value))
     if word == "written":
         _written.append(str(value))
     if _pipe is not None:
@@ -34,6 +38,11 @@ def tell(word: str, value: str | int) -> None:
 def folders_written() -> list[str]:
     """List the folders that this process has put in their places."""
     return list(_written)
+
+
+def stage_under_way() -> str | None:
+    """Name the stage that began last, if one has."""
+    return _stages[-1] if _stages else None
 
 
 def read_messages(pipe: int) -> Iterator[tuple[str, str | int]]:

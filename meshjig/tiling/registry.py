@@ -7,11 +7,10 @@ first line of the function's docstring.
 
 import logging
 from collections.abc import Callable
-from difflib import get_close_matches
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint, distributions
 from typing import NamedTuple
 
-from meshjig.errors import OptionError
+from meshjig.errors import OptionError, did_you_mean
 from meshjig.mesh.arrays import Floats
 from meshjig.tiling.check_unit import check_unit
 from meshjig.tiling.families import escher
@@ -74,14 +73,12 @@ def get_family(name: str, seed: int = 0, columns: int | None = None) -> Unit:
         return user_unit(name)
     if _figure(name):
         return escher.unit(_figure(name))
-    if name in _plugins():
-        return _plugin_unit(name, seed, columns)
-    known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *sorted(_plugins()), "FILE.svg"]
-    close = get_close_matches(name.lower(), [*known, "isohedral:IH01"], n=1)
-    raise OptionError(
-        f"there is no tiling {name!r}" + (f"; did you mean {close[0]}?" if close else ""),
-        hint="known are " + ", ".join(known),
-    )
+    plugins = _plugins()
+    if name in plugins:
+        return _plugin_unit(plugins[name], seed, columns)
+    known = [*_OWN, "isohedral:IH01 to IH93", *_figures(), *sorted(plugins), "FILE.svg"]
+    near = did_you_mean(name, [*known, "isohedral:IH01"], least=0.8 if ":" in name else 0.6)
+    raise OptionError(f"there is no tiling {name!r}", hint=f"{near} known are {', '.join(known)}".strip())
 
 
 def get_decor(name: str) -> list[list[Floats]] | None:
@@ -130,12 +127,12 @@ def _figure(name: str) -> str:
     return name.removeprefix(_ESCHER) if name in _figures() else ""
 
 
-def _plugin_unit(name: str, seed: int, columns: int | None) -> Unit:
+def _plugin_unit(point: EntryPoint, seed: int, columns: int | None) -> Unit:
     """Ask another package for its tiling, and check that it is one.
 
     Parameters
     ----------
-    name : str, a name in `_plugins`
+    point : EntryPoint, one of `_plugins`
     seed : int
     columns : int, optional
         Both are handed on as keywords.
@@ -145,15 +142,14 @@ def _plugin_unit(name: str, seed: int, columns: int | None) -> Unit:
     OptionError
         The package fails, or what it gives is no tiling.
     """
-    point = _plugins()[name]
     try:
         unit = point.load()(seed=seed, columns=columns)
         if not isinstance(unit, Unit):
             raise TypeError(f"it gives {type(unit).__name__} where Unit is needed")
         check_unit(unit)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise OptionError(
-            f"the tiling {name} ({_source(point)}) does not work: {_reason(error)}",
+            f"the tiling {point.name} ({_source(point)}) does not work: {_reason(error)}",
             hint="choose another tiling, or tell its author",
         ) from error
     return unit
@@ -170,7 +166,7 @@ def _describe_plugins() -> list[tuple[str, str]]:
     for name, point in sorted(_plugins().items()):
         try:
             first_line = (point.load().__doc__ or "").strip().split("\n")[0]
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             _log.warning("the tiling %s (%s) can't be loaded: %s", name, _source(point), _reason(error))
         else:
             described.append((name, first_line or f"from {_source(point)}"))
@@ -178,12 +174,19 @@ def _describe_plugins() -> list[tuple[str, str]]:
 
 
 def _plugins() -> dict[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=GROUP)}
+    found: dict[str, EntryPoint] = {}
+    for package in distributions():
+        try:
+            for point in package.entry_points.select(group=GROUP):
+                found.setdefault(point.name, point)
+        except Exception as error:  # whatever a damaged list gives rise to
+            _log.warning("the list of entry points of %s is damaged: %s", package.name, _reason(error))
+    return found
 
 
 def _source(point: EntryPoint) -> str:
     return f"package {point.dist.name}" if point.dist else point.value
 
 
-def _reason(error: Exception) -> str:
+def _reason(error: BaseException) -> str:
     return f"{error}" if isinstance(error, OptionError) else f"{type(error).__name__}: {error}"

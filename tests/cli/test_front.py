@@ -73,10 +73,18 @@ def gone(processes):
 @on_linux
 @pytest.mark.parametrize("name", sorted(CAUGHT))
 def test_a_run_can_be_ended_from_its_first_moments_on(ball, tmp_path, name):
-    running = started("make", ball, "-o", tmp_path / "out")
+    running = started("make", ball, "-o", tmp_path / "out", "--json", stdout=subprocess.PIPE)
     until(lambda: listens(running.pid))
     running.send_signal(getattr(signal, name))
-    _, said = running.communicate(timeout=60)
+    out, said = running.communicate(timeout=60)
+    told = json.loads(out)
+    assert (told["ok"], told["exit"]) == (False, 128 + getattr(signal, name))
+    assert told["error"] == {
+        "kind": "interrupted",
+        "message": "interrupted; nothing was written",
+        "hint": "",
+        "stage": None,
+    }
     assert said == "meshjig: interrupted; nothing was written\n"
     assert running.returncode == 128 + getattr(signal, name)
     assert not list(tmp_path.iterdir())
@@ -127,16 +135,20 @@ def test_nothing_of_a_killed_run_goes_on_and_the_next_one_clears_up(ball, tmp_pa
 @on_linux
 @pytest.mark.parametrize("name", ["SIGSEGV", "SIGABRT", "SIGKILL"])
 def test_a_crash_in_native_code_ends_in_a_sentence(ball, tmp_path, name):
-    running = started("make", ball, "-o", tmp_path / "out", "-v")
+    running = started("make", ball, "-o", tmp_path / "out", "-v", "--json", stdout=subprocess.PIPE)
     at_stage(running, "scan")
     worker = psutil.Process(running.pid).children()[0]
     worker.send_signal(getattr(signal, name))
-    said = running.communicate(timeout=60)[1].splitlines()[-1]
+    out, said = running.communicate(timeout=60)
+    said, told = said.splitlines()[-1], json.loads(out)
+    assert told["exit"] == running.returncode
+    assert told["error"]["kind"] == ("killed" if name == "SIGKILL" else "bug")
+    assert told["error"]["stage"] in ("scan", "cells")
     words = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGKILL": "was killed"}[name]
     assert said.startswith("meshjig: ")
     assert words in said
     assert "nothing was written" in said
-    assert running.returncode == 1
+    assert running.returncode == (128 + signal.SIGKILL if name == "SIGKILL" else 70)
     assert not list(tmp_path.iterdir())
 
 
@@ -169,10 +181,38 @@ def test_a_full_standard_output_does_not_hide_the_puzzle(small, tmp_path):
     with Path("/dev/full").open("w") as full:
         ended = started("make", small, "-o", target, *QUICK, "--json", stdout=full)
         said = ended.communicate(timeout=300)[1]
-    assert ended.returncode == 1
+    assert ended.returncode == 5  # that device is a full disk
     assert f"standard output can't be written (no space left on device); {target} is whole" in said
     assert "nothing was written" not in said
     assert json.loads((target / "report.json").read_text())["ok"] is not None
+
+
+@on_linux
+def test_a_full_disk_ends_in_one_sentence_and_leaves_nothing(small, tmp_path):
+    """While files are written: a library that is told so in the middle of one once aborted."""
+    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))"
+    words = [*COMMAND, "make", str(small), "-o", str(tmp_path / "out"), *map(str, QUICK), "--json"]
+    script = f"{limit}; import os; os.execv({sys.executable!r}, {words!r})"
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, encoding="utf-8", check=False)
+    told = json.loads(ended.stdout)
+    assert ended.returncode == told["exit"] == 5, ended.stderr
+    assert told["error"]["kind"] == "resources"
+    said = [line for line in ended.stderr.splitlines() if not line.startswith("size: ")]
+    assert said == [f"meshjig: {told['error']['message']}: {told['error']['hint']}"]
+    assert "file too large" in ended.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@on_linux
+def test_a_name_that_is_no_text_is_no_hindrance(small, tmp_path):
+    scan = os.fsencode(tmp_path) + b"/\xff.ply"
+    Path(os.fsdecode(scan)).write_bytes(small.read_bytes())
+    ended = started("make", os.fsdecode(scan), *QUICK, cwd=tmp_path)
+    said = ended.communicate(timeout=300)[1]
+    assert ended.returncode in (0, 3), said
+    assert r"pieces in \udcff-jigsaw" in said
+    report = json.loads((tmp_path / os.fsdecode(b"\xff-jigsaw") / "report.json").read_text(encoding="utf-8"))
+    assert report["input"]["file"].endswith(r"\udcff.ply")
 
 
 def test_a_reader_that_has_gone_away_does_not_matter(small, tmp_path):

@@ -5,7 +5,14 @@ import numpy as np
 import pytest
 
 from meshjig.errors import InputError
-from meshjig.output.report import Expectations, read_expectations, read_missing, write_report
+from meshjig.output.report import (
+    Expectations,
+    read_expectations,
+    read_missing,
+    read_report,
+    title_of,
+    write_report,
+)
 
 PIECES = [{"id": 1, "neighbours": [2, 3]}, {"id": 2, "neighbours": [1]}, {"id": 3, "neighbours": [1]}]
 NAMES = ["piece_001", "piece_002", "piece_003"]
@@ -61,3 +68,49 @@ def test_files_without_a_report_tell_nothing():
 def test_a_damaged_report_gets_one_sentence(report):
     with pytest.raises(InputError, match="damaged: remove it"):
         read_expectations(report, NAMES)
+
+
+ASKED = {"options": {"thickness": 3.0}, "pieces": PIECES, "exempt_pieces": []}
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"options": {"thickness": "thick"}},
+        {"options": {"clearance": -1}},
+        {"options": {"min_wall": [1]}},
+        {"options": {"min_wall": True}},
+        {"options": {"thickness": 10**400}},
+        {"options": {"thickness": float("nan")}},
+        {"options": [1]},
+        {"pieces": 3},
+        {"pieces": [{"id": "x", "neighbours": []}]},
+        {"pieces": [{"id": 1, "neighbours": 3}]},
+        {"exempt_pieces": 3},
+        {"core": 3},
+        {"core": {"parts": "x"}},
+        {"core": {"parts": 10**12}},
+    ],
+)
+def test_a_report_that_says_nonsense_is_damaged(changed):
+    def read(report):
+        return read_expectations(report, NAMES), read_missing(report, NAMES)
+
+    assert read(ASKED)
+    with pytest.raises(InputError, match="damaged: remove it to judge the pieces by themselves"):
+        read(ASKED | changed)
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"a": ' + "9" * 5000 + "}"])
+def test_a_report_that_hurts_its_parser_is_damaged(tmp_path, text):
+    (tmp_path / "report.json").write_text(text)
+    with pytest.raises(InputError, match="no valid JSON, or damaged"):
+        read_report(tmp_path / "report.json")
+
+
+def test_a_name_that_is_no_text_is_escaped(tmp_path):
+    name = "b\udcff.ply"  # as the system gives the byte 255
+    write_report(tmp_path / "report.json", {"input": {"file": name}})
+    read = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert read["input"]["file"] == r"b\udcff.ply"
+    assert title_of({"input": {"file": name}}) == r"b\udcff"

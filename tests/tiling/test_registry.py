@@ -22,6 +22,9 @@ def good(seed, columns):
 def fails(seed, columns):
     raise RuntimeError("no luck")
 
+def quits(seed, columns):
+    raise SystemExit(7)
+
 def no_unit(seed, columns):
     return 3
 
@@ -33,6 +36,7 @@ def no_tiling(seed, columns):
 POINTS = """[meshjig.tilings]
 good = a_package:good
 fails = a_package:fails
+quits = a_package:quits
 no-unit = a_package:no_unit
 no-tiling = a_package:no_tiling
 missing = a_package:not_there
@@ -74,7 +78,7 @@ def test_all_names_have_one_line_about_them():
     [("clasic", "classic"), ("hexagon", "hex"), ("Macro", "macro"), ("polyominoes", "polyomino")],
 )
 def test_misspelt_name_is_answered_with_the_closest(wrong, right):
-    with pytest.raises(OptionError, match=rf"'{wrong}'; did you mean {right}\?.*rectangular.*FILE\.svg"):
+    with pytest.raises(OptionError, match=rf"'{wrong}': did you mean {right}\?.*rectangular.*FILE\.svg"):
         get_family(wrong)
 
 
@@ -103,6 +107,7 @@ def test_other_package_brings_a_tiling():
     ("name", "reason"),
     [
         ("fails", "RuntimeError: no luck"),
+        ("quits", "SystemExit: 7"),
         ("no-unit", "gives int where Unit is needed"),
         ("no-tiling", "mean area"),
         ("missing", "not_there"),
@@ -129,3 +134,15 @@ def test_broken_tilings_are_named_in_warnings_and_the_rest_is_listed(caplog):
 def test_own_tilings_can_not_be_replaced():
     assert len(get_family("classic").ends) == 2
     assert [name for name, _ in family_names()].count("classic") == 1
+
+
+@pytest.mark.usefixtures("_package")
+@pytest.mark.parametrize("text", [b"[meshjig.tilings]\nno value\n", b"\xff\xfe\x00"])
+def test_a_damaged_list_of_entry_points_stops_nobody(tmp_path, text, caplog):
+    info = tmp_path / "broken-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_bytes(text)
+    with caplog.at_level(logging.WARNING, "meshjig"):
+        assert len(get_family("good").ends) == 3
+    assert "the list of entry points of broken is damaged" in caplog.text

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from meshjig.errors import OutputError
+from meshjig.errors import OutputError, write_error
 from meshjig.output.folder.claim import Claim, claimed
 from meshjig.output.folder.manifest import REPORT, read_manifest, sign, stranger
 from meshjig.runtime.signals import hold_signals
@@ -90,8 +90,7 @@ def _as_sentences(target: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise OutputError(f"the output folder {target} can't be written ({reason})", hint=_HINT) from error
+        raise write_error(f"the output folder {target}", error, _HINT) from error
 
 
 def _refuse_inputs(target: Path, inputs: Sequence[str | os.PathLike[str]]) -> None:
@@ -108,7 +107,8 @@ def _refuse_foreign(target: Path, kind: str) -> None:
     if not os.path.lexists(target):
         return
     if not target.is_dir():
-        raise OutputError(f"{target} is a file, not a folder", hint="choose another folder with -o")
+        what = "a link that leads to itself" if target.is_symlink() else "a file, not a folder"
+        raise OutputError(f"{target} is {what}", hint="choose another folder with -o")
     if not any(target.iterdir()):
         return
     manifest = read_manifest(target)
@@ -134,7 +134,9 @@ def _refuse_closed(target: Path) -> None:
     if os.path.ismount(target):
         raise OutputError(f"{target} is where a disk is mounted", hint="choose a folder in it with -o")
     above = target.parent
-    while not above.exists() and above != above.parent:
+    while not os.path.lexists(above) and above != above.parent:
         above = above.parent
+    if above.is_symlink():  # with all links followed that lead somewhere
+        raise OutputError(f"{above} is a link that leads to itself", hint="choose another folder with -o")
     if not above.is_dir() or not os.access(above, os.W_OK):
         raise OutputError(f"the output folder {target} can't be written ({above} is closed)", hint=_HINT)

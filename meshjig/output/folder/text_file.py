@@ -9,7 +9,7 @@ import uuid
 from contextlib import suppress
 from pathlib import Path
 
-from meshjig.errors import OutputError
+from meshjig.errors import OutputError, write_error
 
 __all__ = ["write_svg_file"]
 
@@ -43,8 +43,7 @@ def write_svg_file(path: Path, text: str) -> None:
         scratch.write_bytes(data + mark.encode("ascii"))
         os.replace(scratch, path)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise OutputError(f"{path} can't be written ({reason})", hint="choose another file") from None
+        raise write_error(str(path), error, "choose another file with --svg, or make room there") from None
     finally:
         with suppress(OSError):
             scratch.unlink()

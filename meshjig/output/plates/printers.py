@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from meshjig.errors import OptionError
+from meshjig.errors import OptionError, did_you_mean
 
 __all__ = [
     "PRINTERS",
@@ -71,12 +71,12 @@ def parse_plate(text: str) -> Plate:
         return PRINTERS[name]
     size = _SIZE.fullmatch(name.replace(" ", ""))
     if size is None:
-        raise OptionError(
-            f"plate: {text!r} is not known", hint=f"give WIDTHxDEPTH in mm, or one of {', '.join(PRINTERS)}"
-        )
+        near = did_you_mean(name, PRINTERS)
+        hint = f"{near} give WIDTHxDEPTH in mm, such as 220x220, or one of {', '.join(PRINTERS)}".strip()
+        raise OptionError(f"plate: {text!r} is not known", hint=hint, option="plate")
     plate = Plate(*(float(side) for side in size.groups() if side))
     if min(plate) <= 0:
-        raise OptionError(f"plate: {text!r} has no area", hint="give WIDTHxDEPTH in mm")
+        raise OptionError(f"plate: {text!r} has no area", hint="give WIDTHxDEPTH in mm", option="plate")
     return plate
 
 

@@ -97,8 +97,9 @@ def _tiling(number: int) -> Any:
             "isohedral tilings need the package tactile", hint="pip install meshjig[isohedral]"
         ) from None
     if number not in tiling_types:
-        known = ", ".join(str(k) for k in tiling_types if k not in STRAIGHT)
-        raise OptionError(f"IH{number:02d} is no type whose tiles interlock", hint=f"there are {known}")
+        least, most = (f"IH{found(set(tiling_types) - set(STRAIGHT)):02d}" for found in (min, max))
+        hint = f"there are most from {least} to {most}, such as IH04"
+        raise OptionError(f"IH{number:02d} is no type whose tiles interlock", hint=hint)
     return IsohedralTiling(number)
 
 

@@ -1,11 +1,13 @@
+import errno
 import json
+import os
 import stat
 import subprocess
 import sys
 
 import pytest
 
-from meshjig.errors import OutputError
+from meshjig.errors import OutputError, ResourceError
 from meshjig.output.folder import replace_folder
 
 
@@ -57,7 +59,7 @@ def test_failure_leaves_everything_as_it_was(tmp_path, error, before):
         with replace_folder(target) as folder:
             fill(folder, "old")
     was = tree(tmp_path)
-    expected = OutputError if isinstance(error, OSError) else error
+    expected = ResourceError if isinstance(error, OSError) else error
     with pytest.raises(expected):
         write_and(target, error)
     assert tree(tmp_path) == was
@@ -230,3 +232,40 @@ def test_the_mode_of_an_empty_folder_stays(tmp_path):
     target.mkdir(mode=0o700)
     write_and(target)
     assert stat.S_IMODE(target.stat().st_mode) == 0o700
+
+
+@pytest.mark.parametrize("inside", ["", "below/that"])
+def test_a_link_that_leads_to_itself_is_told(tmp_path, inside):
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    with (
+        pytest.raises(OutputError, match="loop is a link that leads to itself: choose another"),
+        replace_folder(tmp_path / "loop" / inside),
+    ):
+        pytest.fail("the block must not run")
+    assert [path.name for path in tmp_path.iterdir()] == ["loop"]
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EFBIG])
+def test_a_full_disk_is_a_want_of_resources(tmp_path, code):
+    with pytest.raises(
+        ResourceError, match=r"out can't be written \(.*\): choose another with -o, or make room"
+    ):
+        write_and(tmp_path / "out", OSError(code, os.strerror(code)))
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_empty_folder_keeps_who_may_read_it(tmp_path):
+    (tmp_path / "out").mkdir(mode=0o700)
+    with replace_folder(tmp_path / "out") as folder:
+        fill(folder)
+    assert stat.S_IMODE((tmp_path / "out").stat().st_mode) == 0o700
+
+
+def test_where_a_disk_is_mounted_nothing_is_put(tmp_path, monkeypatch):
+    (tmp_path / "disk").mkdir()
+    monkeypatch.setattr(os.path, "ismount", lambda path: str(path).endswith("disk"))
+    with (
+        pytest.raises(OutputError, match="disk is where a disk is mounted: choose a folder in it"),
+        replace_folder(tmp_path / "disk"),
+    ):
+        pytest.fail("the block must not run")
