@@ -31,7 +31,7 @@ def placed_meshes(file: Container, notes: list[str]) -> list[Placed]:
     Parameters
     ----------
     file : Container
-    notes : list of str, to which a sentence is added where meshes of other scenes are left out
+    notes : list of str, to which a sentence is added where meshes are left out
 
     Raises
     ------
@@ -42,12 +42,16 @@ def placed_meshes(file: Container, notes: list[str]) -> list[Placed]:
     """
     if not file.items("nodes"):
         return [Placed(mesh, np.eye(4)[None], {}) for mesh in range(len(file.items("meshes")))]
+    before = len(notes)
     matrices = global_matrices(file, _roots(file, notes))
     found = []
     for number, matrix in matrices.items():
         node = file.item("nodes", number)
         if "mesh" in node:
             found.append(Placed(node["mesh"], matrix @ _instances(file, node), node))
+    unseen = len(set(range(len(file.items("meshes")))) - {place.mesh for place in found})
+    if unseen and len(notes) == before:
+        notes.append(f"left out: {unseen} mesh{'es' * (unseen > 1)} that the scene does not show")
     return found
 
 
