@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +45,7 @@ def _joined(parts: Sequence[Source]) -> Look:
     looks = [part.look for part in parts]
     pictures = {id(look.picture): look.picture for look in looks if look.picture is not None}
     if len(pictures) == 1 and all(look.picture is not None for look in looks):
-        return Look(uv=_all_uv(parts), picture=looks[0].picture)
+        return replace(looks[0], rgb=None, uv=_all_uv(parts))
     if pictures:
         return _in_one_picture(parts, list(pictures.values()))
     if all(look.rgb is None for look in looks):
@@ -90,7 +91,9 @@ def _in_one_picture(parts: Sequence[Source], pictures: list[NDArray[np.uint8]]) 
             size = np.array(part.look.picture.shape[1::-1])  # type: ignore[union-attr]
             pixel = _once(part.look.uv, size) + corner[place[id(part.look.picture)]]
         uv.append(pixel / (width, height) * (1, -1) + (0, 1))
-    return Look(uv=np.concatenate(uv), picture=picture)
+    each = {id(part.look.picture): part.look.picture_sizes for part in parts if part.look.picture is not None}
+    sizes = tuple(size for sizes in each.values() for size in sizes)
+    return Look(uv=np.concatenate(uv), picture=picture, sizes=sizes)
 
 
 def _mean_colours(part: Source) -> NDArray[np.uint8]:

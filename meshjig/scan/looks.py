@@ -32,11 +32,7 @@ def together(groups: Sequence[tuple[Ints, Look]]) -> Look:
     look = join([Source(no_vertices, np.zeros((len(f), 3), np.int64), shown) for f, shown in groups]).look
     place = np.empty(len(order), np.int64)
     place[order] = np.arange(len(order))
-    return Look(
-        None if look.rgb is None else look.rgb[place],
-        None if look.uv is None else look.uv[place],
-        look.picture,
-    )
+    return look.of(place)
 
 
 def corner_colours(

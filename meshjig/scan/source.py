@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -34,22 +34,32 @@ class Look:
     rgb: NDArray[np.uint8] | None = None  # (m, 3, 3), sRGB, a colour a corner
     uv: Floats | None = None  # (m, 3, 2), in sizes of the picture, v upward; NaN for a face without
     picture: Pixels | None = None  # (height, width, 3), sRGB
+    sizes: tuple[tuple[int, int], ...] = ()  # width, height of the pictures that it was joined of, if it was
 
     def of(self, faces: Bools | Ints) -> Look:
         """Give what some of the faces show."""
         rgb = None if self.rgb is None else self.rgb[faces]
-        return Look(rgb, None if self.uv is None else self.uv[faces], self.picture)
+        return replace(self, rgb=rgb, uv=None if self.uv is None else self.uv[faces])
 
     def turned(self) -> Look:
         """Give the same for faces whose corners come in the opposite order."""
         rgb = None if self.rgb is None else self.rgb[:, ::-1]
-        return Look(rgb, None if self.uv is None else self.uv[:, ::-1], self.picture)
+        return replace(self, rgb=rgb, uv=None if self.uv is None else self.uv[:, ::-1])
+
+    @property
+    def picture_sizes(self) -> tuple[tuple[int, int], ...]:
+        """Width and height of the pictures that the mesh came with."""
+        if self.sizes or self.picture is None:
+            return self.sizes
+        return ((self.picture.shape[1], self.picture.shape[0]),)
 
     def describe(self) -> str:
         """Say in a few words what the mesh brings; "none" where that is nothing."""
         if self.picture is not None:
-            height, width = self.picture.shape[:2]
-            return f"a texture of {width} x {height} pixels"
+            sizes = self.picture_sizes
+            width, height = max(sizes, key=lambda size: size[0] * size[1])
+            many = f"{len(sizes)} textures, the largest" if len(sizes) > 1 else "a texture"
+            return f"{many} of {width} x {height} pixels"
         if self.rgb is None:
             return "none" if self.uv is None else "none, but UVs"
         rgb = self.rgb.reshape(-1, 3)

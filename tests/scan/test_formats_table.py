@@ -5,6 +5,7 @@ import pytest
 
 from meshjig.scan.load import load
 from tests.scan import carried
+from tests.scan.write_scenes import glb, gltf, three_mf
 from tests.scan.write_text import obj, off, ply, stl
 
 SURFACE = {
@@ -21,12 +22,18 @@ TABLE = [
     ("PLY little", ply("<"), ["polygons", "several bodies", "vertex colours", "face colours", "texture"]),
     ("PLY big", ply(">"), ["polygons", "several bodies", "vertex colours", "face colours", "texture"]),
     ("OFF", off, ["polygons", "several bodies", "vertex colours", "face colours"]),
+    ("GLB", glb, ["several bodies", "vertex colours", "face colours", "texture"]),
+    ("glTF", gltf, ["several bodies", "vertex colours", "face colours", "texture"]),
+    ("3MF", three_mf, ["several bodies", "vertex colours", "face colours", "texture"]),
 ]
 SAYS = [
     ("OBJ", obj, None, None),
     ("STL", stl, None, None),
     ("PLY", ply("<"), None, None),
     ("OFF", off, None, None),
+    ("GLB", glb, 1000, "y"),
+    ("glTF", gltf, 1000, "y"),
+    ("3MF", three_mf, 25.4, "z"),
 ]
 
 

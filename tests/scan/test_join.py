@@ -47,6 +47,14 @@ def test_a_textured_part_keeps_its_texture_beside_plain_and_coloured_ones():
     assert shown(source) == [list(RED), [255] * 3, list(BLUE), list(GREEN)]
 
 
+def test_the_pictures_that_a_mesh_came_with_are_described():
+    one = join([pictured(RED, (8, 6)), triangle()])
+    assert one.look.describe() == "a texture of 8 x 6 pixels"
+    assert join([one, triangle()]).look.describe() == "a texture of 8 x 6 pixels"
+    two = join([one, pictured(GREEN, (20, 30)), pictured(RED)])
+    assert two.look.describe() == "3 textures, the largest of 20 x 30 pixels"
+
+
 def test_one_picture_of_several_parts_is_kept_as_it_is():
     picture = np.zeros((4, 4, 3), np.uint8)
     parts = [triangle(uv=CORNERS[None], picture=picture), triangle(uv=CORNERS[None] + 3, picture=picture)]

@@ -71,12 +71,15 @@ class Materials:
         name = "TEXCOORD_0" if base.texture is None else f"TEXCOORD_{_uv_set(base.texture)}"
         uv = mesh.attributes.get(name)
         picture = None
-        if base.texture is not None and uv is not None and uv.shape[1] == 2:
+        if uv is not None and uv.shape[1] != 2:
+            raise ValueError(f"{name} has {uv.shape[1]} numbers a vertex")
+        if base.texture is not None and uv is None:
+            self._note("a part that has a texture does not say where in it its faces are: it stays plain")
+        elif base.texture is not None:
             picture = self._picture(base.texture["index"])
-        if uv is not None and uv.shape[1] == 2:
-            uv = self._placed(
-                uv if base.texture is None else _transformed(uv, base.texture), base.texture, mesh
-            )
+        if uv is not None:
+            moved = uv if base.texture is None else _transformed(uv, base.texture)
+            uv = self._placed(moved, base.texture, mesh)
         if picture is not None and colours is not None:
             if (picture == picture[:1, :1]).all():
                 base = base._replace(factor=base.factor * self._as_linear(picture[0, 0] / 255.0))

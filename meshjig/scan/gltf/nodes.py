@@ -15,6 +15,7 @@ from meshjig.scan.gltf.container import Container, Item
 __all__ = ["Placed", "global_matrices", "placed_meshes"]
 
 _INSTANCING = "EXT_mesh_gpu_instancing"
+_BLANK = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1), "scale": (1, 1, 1)}
 
 
 class Placed(NamedTuple):
@@ -31,7 +32,7 @@ def placed_meshes(file: Container, notes: list[str]) -> list[Placed]:
     Parameters
     ----------
     file : Container
-    notes : list of str, to which a sentence is added where meshes of other scenes are left out
+    notes : list of str, to which a sentence is added where meshes are left out
 
     Raises
     ------
@@ -42,12 +43,16 @@ def placed_meshes(file: Container, notes: list[str]) -> list[Placed]:
     """
     if not file.items("nodes"):
         return [Placed(mesh, np.eye(4)[None], {}) for mesh in range(len(file.items("meshes")))]
+    before = len(notes)
     matrices = global_matrices(file, _roots(file, notes))
     found = []
     for number, matrix in matrices.items():
         node = file.item("nodes", number)
         if "mesh" in node:
             found.append(Placed(node["mesh"], matrix @ _instances(file, node), node))
+    unseen = len(set(range(len(file.items("meshes")))) - {place.mesh for place in found})
+    if unseen and len(notes) == before:
+        notes.append(f"left out: {unseen} mesh{'es' * (unseen > 1)} that the scene does not show")
     return found
 
 
@@ -58,6 +63,7 @@ def global_matrices(file: Container, roots: list[Any] | None = None) -> dict[int
         children = {child for node in nodes for child in node.get("children", ())}
         roots = [number for number in range(len(nodes)) if number not in children]
     found: dict[int, Floats] = {}
+    within = _within_parents(nodes)
     waiting = [(root, np.eye(4)) for root in reversed(roots)]
     while waiting:
         number, above = waiting.pop()
@@ -66,7 +72,7 @@ def global_matrices(file: Container, roots: list[Any] | None = None) -> dict[int
             raise InputError(
                 f"{file.path} places node {number} in itself or in several others", hint="export it again"
             )
-        found[number] = above @ _matrix(node)
+        found[number] = above @ within[number]
         waiting += [(child, found[number]) for child in reversed(node.get("children", []))]
     return found
 
@@ -95,14 +101,17 @@ def _below(file: Container, roots: list[Any]) -> Iterator[int]:
             waiting += file.item("nodes", node).get("children", [])
 
 
-def _matrix(node: Item) -> Floats:
-    if "matrix" in node:
-        return np.array(node["matrix"], np.float64).reshape(4, 4).T
-    return _composed(
-        np.array([node.get("translation", (0, 0, 0))], np.float64),
-        np.array([node.get("rotation", (0, 0, 0, 1))], np.float64),
-        np.array([node.get("scale", (1, 1, 1))], np.float64),
-    )[0]
+def _within_parents(nodes: list[Any]) -> Floats:
+    """The place of each node in the one above, (n, 4, 4)."""
+    moves, turns, scales = (
+        np.array([node.get(name, blank) for node in nodes], np.float64).reshape(len(nodes), -1)
+        for name, blank in _BLANK.items()
+    )
+    matrices = _composed(moves, turns, scales)
+    for number, node in enumerate(nodes):
+        if "matrix" in node:
+            matrices[number] = np.array(node["matrix"], np.float64).reshape(4, 4).T
+    return matrices
 
 
 def _instances(file: Container, node: Item) -> Floats:
@@ -112,9 +121,9 @@ def _instances(file: Container, node: Item) -> Floats:
     attributes = node["extensions"][_INSTANCING]["attributes"]
     given = {name: read_floats(file, attributes[name]) for name in attributes if name[0] != "_"}
     count = len(next(iter(given.values()))) if given else 1
-    blank = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
     moves, turns, scales = (
-        given.get(name, np.tile(np.array(value, np.float64), (count, 1))) for name, value in blank.items()
+        given.get(name.upper(), np.tile(np.array(value, np.float64), (count, 1)))
+        for name, value in _BLANK.items()
     )
     return _composed(moves, turns, scales)
 

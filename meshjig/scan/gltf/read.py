@@ -107,7 +107,10 @@ class _Scene:
     def _primitives(self, mesh: Any) -> list[tuple[Item, Primitive, Look]]:
         if mesh not in self._read:
             self._read[mesh] = []
-            for primitive in self._file.item("meshes", mesh)["primitives"]:
+            primitives = self._file.item("meshes", mesh)["primitives"]
+            if not primitives:
+                self._notes.append(f"left out: mesh {mesh}, which has nothing in it")
+            for primitive in primitives:
                 wanted = self._materials.attributes(primitive) | {"JOINTS_0", "WEIGHTS_0"}
                 read = read_primitive(self._file, primitive, wanted)
                 if read is None:

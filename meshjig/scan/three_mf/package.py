@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import re
 import zipfile
 import zlib
 from pathlib import Path
@@ -17,6 +16,9 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.runtime.bounded import allow_file
 from meshjig.runtime.child import allow
 from meshjig.scan.source import Unit
+from meshjig.scan.three_mf.extensions import unknown_extension
+from meshjig.scan.three_mf.flat import without_flat_triangles
+from meshjig.scan.three_mf.placed import faces_placed
 
 __all__ = ["matrix_of", "mesh_arrays", "open_3mf", "unit_of", "whole_buffer"]
 
@@ -38,12 +40,13 @@ _UNITS = (  # by lib3mf's number
 )
 
 
-def open_3mf(path: Path) -> Any:
+def open_3mf(path: Path, notes: list[str] | None = None) -> Any:
     """Open a 3MF file.
 
     Parameters
     ----------
     path : Path
+    notes : list of str, optional, to which a sentence is added where triangles are left out
 
     Returns
     -------
@@ -52,10 +55,9 @@ def open_3mf(path: Path) -> Any:
     Raises
     ------
     InputError
-        It is damaged, or what it unpacks to, or places again and again, is beyond all measure.
+        It is damaged, requires an extension that is not known, or what it unpacks to, or places again and
+        again, is beyond all measure.
     """
-    import lib3mf
-
     size = path.stat().st_size
     try:
         with zipfile.ZipFile(path) as archive:
@@ -66,7 +68,8 @@ def open_3mf(path: Path) -> Any:
                     hint="export it again, without attachments",
                 )
             allow_file(path, share=unpacked / max(size, 1))
-            faces, depth = _faces_placed(archive)
+            faces, depth = faces_placed(archive)
+            unknown = unknown_extension(archive)
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, NotImplementedError):
         raise InputError(
             f"{path} can't be read as 3MF: its archive is not whole", hint="export it again"
@@ -78,14 +81,42 @@ def open_3mf(path: Path) -> Any:
         )
     if depth > _DEEPEST:
         raise InputError(f"{path} nests its objects {depth} deep", hint="export it without groups")
+    if unknown is not None:
+        raise InputError(
+            f"{path} needs {unknown}, an extension that meshjig does not know",
+            hint="export it without that extension",
+        )
     allow(_A_FACE[0] * faces, _A_FACE[1] * faces)
+    return _model(path, [] if notes is None else notes)
+
+
+def _model(path: Path, notes: list[str]) -> Any:
+    import lib3mf
+
+    wrapper = lib3mf.get_wrapper()
     try:
-        model = lib3mf.get_wrapper().CreateModel()
+        model = wrapper.CreateModel()
         model.QueryReader("3mf").ReadFromFile(str(path))
+        return model
     except lib3mf.ELib3MFException as error:
         reason = str(error).splitlines()[0]
-        raise InputError(f"{path} can't be read as 3MF ({reason})", hint="export it again") from None
-    return model
+    with zipfile.ZipFile(path) as archive:
+        data, count = without_flat_triangles(archive)
+    if count:
+        model = wrapper.CreateModel()
+        reader = model.QueryReader("3mf")
+        buffer = (ctypes.c_uint8 * len(data)).from_buffer(bytearray(data))
+        try:
+            read = wrapper.lib.lib3mf_reader_readfrombuffer
+            wrapper.checkError(reader, read(reader._handle, ctypes.c_uint64(len(data)), buffer))
+        except lib3mf.ELib3MFException as error:
+            reason = str(error).splitlines()[0]
+        else:
+            notes.append(
+                f"left out: {count} triangle{'s' * (count > 1)} with a corner twice, without any area"
+            )
+            return model
+    raise InputError(f"{path} can't be read as 3MF ({reason})", hint="export it again")
 
 
 def unit_of(model: Any) -> Unit:
@@ -132,40 +163,3 @@ def whole_buffer(thing: Any, fetch: Any, kind: Any, count: int) -> NDArray[np.ui
         needed = ctypes.c_uint64(0)
         thing._wrapper.checkError(thing, fetch(thing._handle, ctypes.c_uint64(count), needed, buffer))
     return rows
-
-
-def _faces_placed(archive: zipfile.ZipFile) -> tuple[int, int]:
-    """Count the faces of all that is built, and how deep objects are nested, before anything is made.
-
-    An object may place others, which come before it, many times.
-    """
-    faces: dict[tuple[str, bytes], int] = {}
-    depth: dict[tuple[str, bytes], int] = {}
-    built: list[tuple[str, bytes]] = []
-    for name in archive.namelist():
-        if not name.lower().endswith(".model"):
-            continue
-        text = archive.read(name)
-        starts = [match.start() for match in _OBJECT.finditer(text)]
-        for start, end in zip(starts, [*starts[1:], len(text)], strict=True):
-            part = text[start:end]
-            placed = [_named(tag[0], name) for tag in _COMPONENT.finditer(part)]
-            thing = _named(_TAG.match(part), name, b"id")
-            faces[thing] = part.count(b"<triangle ") or sum(faces.get(key, 0) for key in placed)
-            depth[thing] = 1 + max((depth.get(key, 0) for key in placed), default=0)
-        built += [_named(tag[0], name) for tag in _ITEM.finditer(text)]
-    return sum(faces.get(key, 0) for key in built), max(depth.values(), default=0)
-
-
-def _named(tag: Any, file: str, word: bytes = b"objectid") -> tuple[str, bytes]:
-    """The file and the number of the object that a tag is, or is of."""
-    text = tag if isinstance(tag, bytes) else tag[0] if tag else b""
-    number = re.search(rb"\b" + word + rb'\s*=\s*["\'](\d+)', text)
-    path = re.search(rb"\bpath\s*=\s*[\"']/?([^\"']*)", text)
-    return path[1].decode("utf-8", "replace") if path else file, number[1] if number else b""
-
-
-_TAG = re.compile(rb"<[^>]*>")
-_OBJECT = re.compile(rb"<(?:\w+:)?object\b")
-_COMPONENT = re.compile(rb"<(?:\w+:)?component\b[^>]*>")
-_ITEM = re.compile(rb"<(?:\w+:)?item\b[^>]*>")

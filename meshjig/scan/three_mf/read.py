@@ -51,8 +51,8 @@ def read_3mf_source(path: Path, pictures: PictureReader) -> tuple[Source, list[s
     """
     import lib3mf
 
-    model = open_3mf(path)
     notes: list[str] = []
+    model = open_3mf(path, notes)
     try:
         with zipfile.ZipFile(path) as archive:
             source = _Reader(model, archive, pictures, notes).read()

@@ -164,3 +164,10 @@ def test_places_beyond_the_picture_are_clamped_or_mirrored(tmp_path, wrap):
     at[:, 0] = 0.999 if wrap == 33071 else 1 - UV[:, 0]
     source.look.uv[..., 0] = np.minimum(source.look.uv[..., 0], 0.999)
     assert seen(source.look, at[source.faces]) == 0
+
+
+def test_a_texture_without_places_in_it_is_named(tmp_path):
+    build = Build()
+    source, [note] = read(build.scene(build.part(more={"material": build.texture(PIXELS)})), tmp_path)
+    assert source.look.picture is None
+    assert "does not say where" in note

@@ -89,3 +89,17 @@ def test_copies_beyond_measure_are_refused(tmp_path):
     build.header["nodes"] = [{"children": list(range(1, 1001))}, *[{"mesh": 0}] * 1000]
     with pytest.raises(InputError, match="3000000 faces together"):
         read(build, tmp_path)
+
+
+def test_meshes_that_are_not_shown_or_empty_are_named(tmp_path):
+    build = tetrahedron({"mesh": 0})
+    build.header["meshes"].append(build.header["meshes"][0])
+    source, [note] = read(build, tmp_path)
+    assert len(source.faces) == 4
+    assert note == "left out: 1 mesh that the scene does not show"
+    build.header["meshes"][1] = {"primitives": []}
+    build.header["nodes"].append({"mesh": 1})
+    build.header["scenes"] = [{"nodes": [0, 1]}]
+    source, [note] = read(build, tmp_path)
+    assert len(source.faces) == 4
+    assert note == "left out: mesh 1, which has nothing in it"

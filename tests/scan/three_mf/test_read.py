@@ -75,3 +75,8 @@ def test_objects_may_be_in_other_models_of_the_package(tmp_path):
     source, notes = read(tmp_path, outer, files=files, links=[("3D/Objects/o.model", MODEL)])
     np.testing.assert_allclose(source.vertices, TETRAHEDRON + 50 + [7, 0, 0], atol=1e-5)
     assert notes == []
+
+
+def test_a_model_without_objects_holds_nothing(tmp_path):
+    source, _ = read(tmp_path, model("", ""))
+    assert len(source.faces) == 0
