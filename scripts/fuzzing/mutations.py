@@ -6,6 +6,7 @@ import random
 import re
 import struct
 import zipfile
+import zlib
 from collections.abc import Callable
 
 __all__ = ["mutated"]
@@ -16,6 +17,7 @@ _WORDS = [
     *(b"nan", b"-inf", b"1e400", b"1e-320", b"-1", b"0", b"99999999999", b"4294967295", b"9" * 5000, b"0x10"),
     *(b"", b"--", b"1/2/3", b"../../x", b"%s%n", b"\xff\xfe", b"\x1b[31m", b"\xe4", b"\0"),
 ]
+_UNFIT = ValueError, IndexError, KeyError, TypeError, struct.error, zipfile.BadZipFile, zlib.error
 _INTEGERS = (0, 1, 2, 0x7F, 0xFF, 0x7FFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFE, 0xFFFFFFFF)
 _FLOATS = (float("nan"), float("inf"), -1e38, 1e-45, 0.0, 3e9)
 _VALUES = (
@@ -58,7 +60,7 @@ def mutated(kind: str, data: bytes, chance: random.Random) -> tuple[bytes, list[
         mutation = chance.choice(_fitting(kind, data))
         try:
             data = mutation(data, chance)
-        except (ValueError, IndexError, struct.error, zipfile.BadZipFile, KeyError, TypeError, UnicodeError):
+        except _UNFIT:
             data = _overwrite(data, chance)  # what an earlier mutation left is no such file any more
             mutation = _overwrite
         names.append(mutation.__name__.strip("_"))
