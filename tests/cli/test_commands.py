@@ -155,6 +155,10 @@ def test_pieces_of_a_model_that_crosses_itself_are_exempt_and_resurfacing_makes_
             assert report["checks"]["overlap_mm3"] > 1
             assert 2 <= len(touched) < len(report["pieces"])
             assert touched >= set(report["exempt"]["overlap_mm3"])
+            assert said.returncode == 3
+            assert "more than a tenth of the puzzle is exempt" in said.stderr
+            assert "--resurface rebuilds its surface" in said.stderr
+            assert set(report["failures"].pop("exempt")) <= touched
             assert not touched & {name for named in report["failures"].values() for name in named}
 
 
