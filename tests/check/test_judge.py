@@ -72,7 +72,7 @@ def test_each_promise_can_be_broken_and_names_the_piece(second, promise, blamed)
 def test_what_an_exempt_piece_breaks_is_named_but_not_held_against_the_puzzle():
     pieces = [("a", *GOOD[0]), ("b", *pushed(GOOD[1], 0.3)), ("c", *pushed(folded_plate(), 100))]
     assert set(judge(pieces, **ASKED).failures) == {"overlap_mm3", "gap_mm", "self_intersections"}
-    others = [(f"d{k}", *pushed(GOOD[0], 200 + 100 * k)) for k in range(18)]
+    others = [(f"d{k}", *box([120 * k, 300, 0], [120 * k + 100, 400, 2], 1)) for k in range(18)]
     verdict = judge([*pieces, *others], **ASKED, exempt_pieces=["b", "c"])
     assert verdict.ok
     assert verdict.exempt == {"self_intersections": ["c"], "overlap_mm3": ["b"], "gap_mm": ["b"]}
@@ -82,7 +82,7 @@ def test_what_an_exempt_piece_breaks_is_named_but_not_held_against_the_puzzle():
 @pytest.mark.parametrize(("n", "excused"), [(18, True), (17, False)])
 def test_so_many_exempt_pieces_are_no_puzzle(n, excused):
     broken = [("b", *pushed(GOOD[1], 0.3)), ("c", *pushed(folded_plate(), 100))]
-    others = [(f"d{k}", *pushed(GOOD[0], 200 + 100 * k)) for k in range(n - 1)]
+    others = [(f"d{k}", *box([120 * k, 300, 0], [120 * k + 100, 400, 2], 1)) for k in range(n - 1)]
     verdict = judge([("a", *GOOD[0]), *broken, *others], **ASKED, exempt_pieces=["b", "c", "d1"])
     assert verdict.failures == ({} if excused else {"exempt": ["b", "c"]})
 

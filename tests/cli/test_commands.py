@@ -280,3 +280,10 @@ def test_a_closed_surface_in_one_piece_is_refused(ball, tmp_path):
     assert_one_sentence(
         run("make", ball, "-o", tmp_path / "out", "--pieces", 1, "--charts", "single"), "hollow", 2
     )
+
+
+def test_the_size_and_why_is_said_unless_it_is_to_be_quiet(tmp_path):
+    mesh = saved(tmp_path / "ball.stl", sphere(500, 4.0))
+    said = run("make", mesh, "--dry-run", "--unit", "inch").stderr
+    assert re.fullmatch(r"size: \S+ x \S+ x \S+ mm; largest extent \S+ inch as asked\n", said)
+    assert run("make", mesh, "--dry-run", "--unit", "inch", "-q").stderr == ""
