@@ -111,7 +111,7 @@ class Options(BaseModel):
     )
     flat_base: Annotated[FiniteFloat, Field(gt=0, le=LONGEST)] | Literal["auto"] | None = Field(
         None,
-        description="as --drop-below, MM or auto (3 % of the height), closed to a stand or refused",
+        description="as --drop-below, closed to a stand or refused; alone, or auto: at 3 % of the height",
         json_schema_extra={"alone": "auto"},
     )
     open_base: bool = Field(

@@ -181,3 +181,12 @@ def test_pieces_and_their_size_can_not_both_be_given(tmp_path):
     assert (options.piece_size, options.pieces) == (60, 100)
     (tmp_path / "shop.toml").write_text("piece-size = 60\n")
     assert read_options(tmp_path / "shop.toml", {"pieces": "24"}).piece_size is None
+
+
+def test_a_floor_is_cut_off_in_one_way_only():
+    assert Options.of(flat_base="auto").flat_base == "auto"
+    assert Options(flat_base=True).flat_base == "auto"
+    assert Options(flat_base=False).flat_base is None
+    assert Options.of(flat_base=3).flat_base == 3.0
+    with pytest.raises(OptionError, match=r"drop-below .*give one of them"):
+        Options.of(flat_base=3.0, drop_below=2.0)

@@ -13,6 +13,8 @@ from meshjig.mesh.validated import weld
 
 __all__ = ["as_stl", "is_closed", "is_closed_as_stl", "is_one_component", "volume"]
 
+_DECIMALS = 8  # of a mm, that readers tell apart
+
 
 def is_closed(F: Ints) -> bool:
     """Prove that faces form a closed, oriented 2-manifold.
@@ -44,7 +46,8 @@ def is_closed(F: Ints) -> bool:
 def as_stl(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     """Give a piece as it comes back from an STL: float32 coordinates, equal vertices merged.
 
-    STL keeps no indices: vertices that round to one place become one vertex, for every reader. A
+    STL keeps no indices: vertices that round to one place become one vertex, for every reader; for some so do
+    those nearer to each other than 1e-8 mm, which 32 bits tell apart around 0. A
     micro-edge collapses by it, which is harmless if what remains is a manifold; a vertex that only
     the indices kept apart becomes a pinch, which is not.
 
@@ -59,7 +62,8 @@ def as_stl(V: Floats, F: Ints) -> tuple[Floats, Ints]:
     F : (l, 3) int64, without the faces that have lost a corner
     """
     with np.errstate(over="ignore"):
-        return weld(V.astype(np.float32).astype(np.float64), F)
+        single: Floats = V.astype(np.float32).astype(np.float64)
+    return weld(np.round(single, _DECIMALS), F)
 
 
 def is_closed_as_stl(V: Floats, F: Ints) -> bool:

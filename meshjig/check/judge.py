@@ -14,6 +14,7 @@ from meshjig.check.overlap import overlaps_between
 from meshjig.check.self_intersection import self_intersections
 from meshjig.check.thickness import Thickness, measure_thickness, without_sheets
 from meshjig.errors import InputError
+from meshjig.mesh.measure import face_areas
 from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.pieces import Pieces
 from meshjig.runtime.thresholds import FILES_WORTH_A_CHILD
@@ -27,6 +28,7 @@ NEAR_SHARE = 0.97  # of the clearance, under which a gap is worth mending
 WIDE_SHARE = 1.1  # of the clearance, that the median gap of all may have
 WIDE_PAIR_SHARE = 1.25  # of the clearance, that the median gap of two neighbours may have
 THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
+MOST_EXEMPT = 0.1  # of the pieces, or of their area, that may be excused from a promise
 EXEMPTIBLE = ("self_intersections", "overlap_mm3", "gap_mm", "gap_wide_mm")
 
 
@@ -67,9 +69,10 @@ def judge(
       clearance, and between any two at most 1.25, as is their least distance; only where neighbours are
       named, since pieces far apart are none otherwise; sheets that face each other are left out where
       the thickness is known;
-    - ``thickness_mm``: a piece's median, by rays from some 1,000 points, is 0.8 to 1.25 of the thickness.
+    - ``thickness_mm``: a piece's median, by rays from some 1,000 points, is 0.8 to 1.25 of the thickness;
+    - ``exempt``: at most a tenth of the pieces, and of their area, break a promise that they are exempt from.
 
-    The last three hold only where clearance and thickness are known.
+    Gaps and thickness count only where clearance and thickness are known.
 
     Parameters
     ----------
@@ -83,7 +86,7 @@ def judge(
         What the process can make; thinner pieces are counted and named, which breaks no promise.
     exempt_pieces : names of pieces, such as those touched by crossings of the surface itself
         What they break by crossing, overlapping or standing too near or far, alone or with another piece,
-        is named in `Verdict.exempt` and does not decide `Verdict.ok`.
+        is named in `Verdict.exempt` and does not decide `Verdict.ok`, unless these are too many.
 
     Returns
     -------
@@ -140,6 +143,8 @@ def judge(
     facts = sheets.facts(thickness)
     if thickness and not _within(facts["median"], thickness):
         hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(pieces))])
+    if _too_many_exempt(pieces, {name for broken in exempt.values() for name in broken}):
+        failures["exempt"] = sorted({name for broken in exempt.values() for name in broken}, key=names.index)
     thin = sheets.thin(min_wall) if min_wall else []
 
     checks = {
@@ -176,6 +181,13 @@ def _each_alone(meshes: list[Mesh]) -> tuple[dict[str, list[int]], list[int], Th
         "positive_volume": [i for i in every if volume(*meshes[i]) <= 0],
     }
     return unsound, [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
+
+
+def _too_many_exempt(pieces: Pieces, excused: set[str]) -> bool:
+    """Tell whether too much of a puzzle is excused for it to be one: by number, or by area."""
+    some = np.array([name in excused for name in pieces.names])
+    area = np.array([face_areas(V, F).sum() for V, F in pieces])
+    return bool(some.mean() > MOST_EXEMPT or area[some].sum() > MOST_EXEMPT * area.sum())
 
 
 def _wide(gap: Gap, clearance: float) -> list[tuple[int, int]]:

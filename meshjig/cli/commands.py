@@ -110,7 +110,9 @@ def make(
 
 
 @app.command()
-@takes_options("size", "pieces", "faces", "fill_holes", "memory", "cavities", "resurface", "seed")
+@takes_options(
+    "size", "unit", "keep", "pieces", "faces", "fill_holes", "memory", "cavities", "resurface", "seed"
+)
 def info(
     mesh: MeshPath,
     flags: Flags,
@@ -137,14 +139,15 @@ def info(
         facts = describe_charts(mesh, options, output and _folder(output))
     else:
         scan = ReadAhead(mesh)
-        from meshjig.scan import Preparation, describe
+        from meshjig.pipeline.prepare import preparation
+        from meshjig.scan import describe
 
         found = describe(
             scan,
             size=options.size,
             faces=options.faces,
             cavities=options.cavities,
-            preparation=Preparation(memory=options.memory),
+            preparation=preparation(options),
         )
         facts = dict(found.as_dict())
     emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))

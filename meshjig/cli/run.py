@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import NoReturn
 
+from meshjig.cli.bare import with_values
 from meshjig.cli.endings import CUT_OFF, Ending, exit_code_of, wants_json
 from meshjig.cli.streams import emit, error_stream, outcome, say
 from meshjig.cli.usage import is_usage_error, usage_error
@@ -53,7 +54,7 @@ def exit_code(words: Sequence[str]) -> int:
     try:
         from meshjig.cli.commands import app  # here, so that a damaged installation ends in a sentence too
 
-        code = app(args=list(words), prog_name="meshjig", standalone_mode=False)
+        code = app(args=with_values(words), prog_name="meshjig", standalone_mode=False)
     except BaseException as error:
         ending = _ending_of(error, words)
     else:

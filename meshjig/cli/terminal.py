@@ -66,9 +66,6 @@ def tell_notes(report: Mapping[str, Any]) -> None:
         say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit this model")
     for note in report["input"]["notes"]:
         say(f"meshjig: note: {note}")
-    if report["exempt"]:
-        n = len({name for names in report["exempt"].values() for name in names})
-        say(f"meshjig: note: the mesh crosses itself, and so do {n} pieces: --resurface rebuilds its surface")
     limbs = report.get("cells", {}).get("thin_limbs", [])
     for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])

@@ -26,6 +26,7 @@ from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.material import bulk_of, material_of
 from meshjig.output.texture import textures
+from meshjig.pipeline.bodies import note_contacts
 from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
 from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
@@ -114,6 +115,8 @@ def make_puzzle(
         raise
     with stages("check"):
         locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
+        notes = [*scan.facts.notes, *note_contacts(pieces, layout, options)]
+        scan = replace(scan, facts=replace(scan.facts, notes=notes))
         affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]

@@ -33,7 +33,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     Returns
     -------
     dict
-        "model": {"faces", "size_mm": [x, y, z], "area_mm2"}; "layout"; "pieces": int, asked for;
+        "model": {"faces", "size_mm": [x, y, z], "units": str, "area_mm2"}; "layout"; "pieces": int;
         "piece_size_mm": edge of a square as large as a piece; "thickness_mm"; "clearance_mm";
         "plate": str; "plates": int; "material": {"volume_mm3", "grams", "hours"}, see
         `meshjig.output.plates.material.material_of`.
@@ -44,7 +44,8 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         What `make_puzzle` would refuse before its work begins.
     """
     refuse_unknown_names(options)
-    surface = clean_scan(mesh, options).mesh
+    scan = clean_scan(mesh, options)
+    surface = scan.mesh
     area = float(face_areas(surface.V, surface.F).sum())
     size = options.piece_size or float(np.sqrt(area / options.pieces))
     refuse_too_small_pieces(size, area, options)
@@ -52,7 +53,12 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     n = max(1, round(area / size**2))
     plate = parse_plate(options.plate or COMMON_PLATE)
     return {
-        "model": {"faces": len(surface.F), "size_mm": np.ptp(surface.V, axis=0).tolist(), "area_mm2": area},
+        "model": {
+            "faces": len(surface.F),
+            "size_mm": np.ptp(surface.V, axis=0).tolist(),
+            "units": scan.facts.units,
+            "area_mm2": area,
+        },
         "layout": options.layout,
         "pieces": n,
         "piece_size_mm": size,

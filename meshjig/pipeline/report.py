@@ -19,6 +19,7 @@ from meshjig.mesh.measure import face_areas, mesh_volume, sums
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
 from meshjig.output.report import Report
+from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
 from meshjig.pipeline.verify import Mended
 from meshjig.scan import Scan
@@ -81,10 +82,11 @@ def assemble_report(made: Made) -> Report:
     failures = {promise: list(names) for promise, names in made.verdict.failures.items()} | broken
     add_failures(failures, made.core.failures if made.core else {})
     thin = locks.thin_necked(_least_neck(options))
+    facts = made.scan.facts.as_dict()
     report = {
         "meshjig": meshjig_version(),
         "kind": "puzzle",
-        "input": made.scan.facts.as_dict(),
+        "input": {**facts, "notes": [*facts["notes"], *exempt_note(made.scan, options, made.verdict.exempt)]},
         "up": made.up.tolist(),
         "options": options.model_dump(),
         **_layout(made.layout),

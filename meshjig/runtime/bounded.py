@@ -60,10 +60,15 @@ class Bounded:
     module, function : str, where the function is; the caller need not import it
     *arguments : whatever pickle takes
     limits : Limits, optional
+    package : str, optional
+        Where the types of the answer are; see `Child.ask`.
     """
 
-    def __init__(self, module: str, function: str, *arguments: Any, limits: Limits | None = None) -> None:
+    def __init__(
+        self, module: str, function: str, *arguments: Any, limits: Limits | None = None, package: str = ""
+    ) -> None:
         self._question, self._limits = packed(module, function, arguments), limits or Limits()
+        self._package = package
         self._named, self._arguments = (module, function), arguments
         self._outcome: list[Any] = []
         self._beyond = ""
@@ -114,13 +119,13 @@ class Bounded:
 
     def _ask(self) -> Any:
         try:
-            return self._child.ask(self._question)
+            return self._child.ask(self._question, self._package)
         except _FAILURES:
             if not self._reused or self._beyond:
                 raise
         self._child.end()  # it ended with what it was started for, such as a thread of the caller's
         self._child = Child()
-        return self._child.ask(self._question)
+        return self._child.ask(self._question, self._package)
 
     def _watch(self) -> None:
         """End the child once it goes beyond its limits."""
@@ -161,6 +166,7 @@ class _Failed:
     """Stands for the answer of a child that has failed."""
 
 
+_PACKAGE = "meshjig.scan"
 _READER = "meshjig.scan.reading", "read_file"  # by name: to import it takes as long as to read
 
 
@@ -174,7 +180,8 @@ class ReadAhead:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
-        self._answer = Bounded(*_READER, self.path)
+        self._answer = Bounded(*_READER, self.path, package=_PACKAGE)
+        importlib.import_module(_PACKAGE)  # before all that imports modules of it, see `Child.ask`
 
     def result(self) -> Any:
         """Wait for what the file holds.

@@ -50,8 +50,11 @@ class Child:
         self._answers = cast(IO[bytes], self.process.stdout)
         _running.add(self)
 
-    def ask(self, question: bytes) -> Any:
-        """Give the answer.
+    def ask(self, question: bytes, package: str = "") -> Any:
+        """Give the answer, whose types are in a package.
+
+        A thread that asks imports it as a whole before it touches a module there: two threads that import a
+        package and one of its modules at the same time would each wait for the other.
 
         Raises
         ------
@@ -63,6 +66,8 @@ class Child:
         self.memory, self.seconds = 0.0, 0.0
         self._questions.write(question)
         self._questions.flush()
+        if package:
+            importlib.import_module(package)
         while True:
             kind, answer = pickle.load(self._answers)
             if kind == "answer":

@@ -77,7 +77,7 @@ def to_size(V: Floats, F: Ints, source: Source, size: float | None, asked: Prepa
     if contacts.n_vertices:
         where = ", ".join(f"{x:.4g}" for x in contacts.at)
         notes.append(
-            f"bodies touch each other (first at ({where}) mm): there each is drawn back by "
+            f"parts of the surface touch each other (first at ({where}) mm): there each is drawn back by "
             f"{asked.apart / 2:g} mm, so that pieces keep the clearance"
         )
         scaled = scaled._replace(V=contacts.V)

@@ -18,6 +18,7 @@ __all__ = ["Carved", "carve"]
 # mm; details of the booleans below this are dissolved: the first, or a later one where pieces would cross
 _SHORTEST = (0.003, 0.005, 0.01)
 _DEPTH = 0.005  # mm; shallower crossings are rounding
+_HOPELESS = 0.1  # pairs that cross, a face: a piece of a surface that is folded all over is not mended
 _MENDS = 3  # tries, each with a wider region
 
 
@@ -50,7 +51,7 @@ def carve(
     Notes
     -----
     A piece that crosses itself afterwards is tried again with its slabs taken apart where they cross
-    themselves, then with the folds of the solid itself mended.
+    themselves, then with the folds of the solid itself mended; not where it is folded all over.
     """
     made = cutters(strip, offsets, clearance / 2)
     of_pair: dict[tuple[int, int], list[tuple[Ints, Body]]] = {}
@@ -77,6 +78,8 @@ def carve(
 def _carved_with_care(
     solid: Solid, whole: Body, own: list[tuple[Ints, Body]], strip: Strip, half: float, first: Carved
 ) -> Carved:
+    if _crossings(solid) > _HOPELESS * len(solid.F):
+        return first
     parts: list[Body] = []
     for quads, cutter in own:
         folded = len(crossing_pairs(*arrays(cutter))[0])
@@ -112,15 +115,19 @@ def _carved(whole: Body, cutters: list[Body], state: str) -> Carved:
         if not sound(main):
             continue
         made = Carved(*arrays(main), lost, parts, state)
-        if not _crosses(made):
+        n = _crossings(made)
+        if not n:
             return made
         if failed.state == "uncut":
             failed = made._replace(state="crosses")
+        if n > _HOPELESS * len(made.F):
+            break
     return failed
 
 
-def _crosses(piece: Carved) -> bool:
-    return bool((crossing_pairs(piece.V, piece.F)[1] > _DEPTH).any())
+def _crossings(piece: Carved | Solid) -> int:
+    """Count the pairs of faces that cross deeper than rounding."""
+    return int((crossing_pairs(piece.V, piece.F)[1] > _DEPTH).sum())
 
 
 def repair(solid: Solid, width: int) -> Body | None:

@@ -12,6 +12,7 @@ from meshjig.solid.slivers import low_faces, without_degenerate, without_needles
 __all__ = ["all_printable", "printable"]
 
 _SHORTEST = 1e-4  # mm; slicers weld points nearer than about this
+_DECIMALS = 8  # of a mm: around 0 a 32-bit number has finer steps, which some readers take for one place
 _ROUNDS = 60
 _MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5], np.uint64)
 
@@ -31,7 +32,7 @@ def printable(V: Floats, F: Ints) -> tuple[Floats, Ints]:
 
     Returns
     -------
-    V : (n', 3) float64, mm, every value exact in 32 bits, no two rows equal
+    V : (n', 3) float64, mm, every value exact in 32 bits, no two rows equal to 8 decimals
     F : (m', 3) int64, closed if the input was; all vertices are used
 
     Raises
@@ -79,6 +80,10 @@ def _rounded(V: Floats) -> Floats:
     return V.astype(np.float32).astype(np.float64) + 0.0  # -0 becomes 0: readers compare bytes
 
 
+def _as_read(V: Floats) -> Floats:
+    return np.round(V, _DECIMALS) + 0.0
+
+
 def _on_open_edges(F: Ints) -> Ints:
     """Give a vertex of every edge that has not exactly two faces."""
     a, b = F.ravel(), F[:, [1, 2, 0]].ravel()
@@ -90,13 +95,17 @@ def _on_open_edges(F: Ints) -> Ints:
 
 def _with_a_twin(V: Floats, of: Ints) -> Ints:
     """Give points that may coincide with another one of the same piece, at least one of each such two."""
-    name = V.astype(np.float32).view(np.uint32).astype(np.uint64) @ _MIX[:3] + of.astype(np.uint64) * _MIX[3]
+    name = (
+        _as_read(V).astype(np.float32).view(np.uint32).astype(np.uint64) @ _MIX[:3]
+        + of.astype(np.uint64) * _MIX[3]
+    )
     order = np.argsort(name)
     return order[1:][np.diff(name[order]) == 0]
 
 
 def _first_equal(V: Floats) -> Ints:
-    """Give for each point the first one with the same value, (n,)."""
+    """Give for each point the first one with the same value, as readers see it, (n,)."""
+    V = _as_read(V)
     order = np.lexsort(V.T)
     new = np.ones(len(V), bool)
     new[1:] = (V[order[1:]] != V[order[:-1]]).any(axis=1)

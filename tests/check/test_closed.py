@@ -89,3 +89,11 @@ def _with_edge_split(F, a, b, new):
         else:
             out.append(face)
     return np.array(out)
+
+
+@pytest.mark.parametrize(("apart", "closed"), [(1e-9, False), (1e-6, True)])
+def test_an_edge_of_four_faces_is_found_where_readers_take_two_vertices_for_one(apart, closed):
+    V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    both = np.concatenate([V + np.array([apart, 0, 0]), V * [-1, -1, 1]])
+    assert is_closed_as_stl(both, np.concatenate([F, F + 4])) is closed

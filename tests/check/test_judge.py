@@ -72,16 +72,35 @@ def test_each_promise_can_be_broken_and_names_the_piece(second, promise, blamed)
 def test_what_an_exempt_piece_breaks_is_named_but_not_held_against_the_puzzle():
     pieces = [("a", *GOOD[0]), ("b", *pushed(GOOD[1], 0.3)), ("c", *pushed(folded_plate(), 100))]
     assert set(judge(pieces, **ASKED).failures) == {"overlap_mm3", "gap_mm", "self_intersections"}
-    verdict = judge(pieces, **ASKED, exempt_pieces=["b", "c"])
+    others = [(f"d{k}", *box([120 * k, 300, 0], [120 * k + 100, 400, 2], 1)) for k in range(18)]
+    verdict = judge([*pieces, *others], **ASKED, exempt_pieces=["b", "c"])
     assert verdict.ok
     assert verdict.exempt == {"self_intersections": ["c"], "overlap_mm3": ["b"], "gap_mm": ["b"]}
     assert verdict.checks["self_intersections"] > 0
 
 
+@pytest.mark.parametrize(("n", "excused"), [(18, True), (17, False)])
+def test_so_many_exempt_pieces_are_no_puzzle(n, excused):
+    broken = [("b", *pushed(GOOD[1], 0.3)), ("c", *pushed(folded_plate(), 100))]
+    others = [(f"d{k}", *box([120 * k, 300, 0], [120 * k + 100, 400, 2], 1)) for k in range(n - 1)]
+    verdict = judge([("a", *GOOD[0]), *broken, *others], **ASKED, exempt_pieces=["b", "c", "d1"])
+    assert verdict.failures == ({} if excused else {"exempt": ["b", "c"]})
+
+
+def test_so_much_exempt_area_is_no_puzzle():
+    small = [box([3 * k, 0, 0], [3 * k + 2, 2, 2]) for k in range(40)]
+    large = [box([0, 10, 0], [30, 40, 2]), box([29, 10, 0], [60, 40, 2])]
+    verdict = judge([*small, *large], exempt_pieces=["piece_041", "piece_042"])
+    assert verdict.failures == {"exempt": ["piece_041", "piece_042"]}
+
+
 def test_an_exempt_piece_does_not_excuse_the_others():
     row = [box([10 * k, 0, 0], [10 * k + 9.9, 10, 2]) for k in range(4)]
     verdict = judge(row, **ASKED, exempt_pieces=["piece_001"])
-    assert verdict.failures == {"gap_mm": ["piece_002", "piece_003", "piece_004"]}
+    assert verdict.failures == {
+        "gap_mm": ["piece_002", "piece_003", "piece_004"],
+        "exempt": ["piece_001"],
+    }
     assert verdict.exempt == {"gap_mm": ["piece_001"]}
 
 

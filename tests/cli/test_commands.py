@@ -155,6 +155,10 @@ def test_pieces_of_a_model_that_crosses_itself_are_exempt_and_resurfacing_makes_
             assert report["checks"]["overlap_mm3"] > 1
             assert 2 <= len(touched) < len(report["pieces"])
             assert touched >= set(report["exempt"]["overlap_mm3"])
+            assert said.returncode == 3
+            assert "more than a tenth of the puzzle is exempt" in said.stderr
+            assert "--resurface rebuilds its surface" in said.stderr
+            assert set(report["failures"].pop("exempt")) <= touched
             assert not touched & {name for named in report["failures"].values() for name in named}
 
 
@@ -276,3 +280,10 @@ def test_a_closed_surface_in_one_piece_is_refused(ball, tmp_path):
     assert_one_sentence(
         run("make", ball, "-o", tmp_path / "out", "--pieces", 1, "--charts", "single"), "hollow", 2
     )
+
+
+def test_the_size_and_why_is_said_unless_it_is_to_be_quiet(tmp_path):
+    mesh = saved(tmp_path / "ball.stl", sphere(500, 4.0))
+    said = run("make", mesh, "--dry-run", "--unit", "inch").stderr
+    assert re.fullmatch(r"size: \S+ x \S+ x \S+ mm; largest extent \S+ inch as asked\n", said)
+    assert run("make", mesh, "--dry-run", "--unit", "inch", "-q").stderr == ""

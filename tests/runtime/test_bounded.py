@@ -1,6 +1,8 @@
 """What a reader may use is limited, and what it does wrong ends as an exception."""
 
 import os
+import subprocess
+import sys
 import time
 
 import psutil
@@ -65,3 +67,10 @@ def test_an_interrupt_ends_the_child(monkeypatch):
     while slow._child.alive():
         assert time.monotonic() < end
         time.sleep(0.01)
+
+
+def test_the_package_of_the_answer_is_imported_as_a_whole_first():
+    words = "import sys; from meshjig.runtime.bounded import Bounded\n"
+    words += "answer = Bounded('os.path', 'basename', 'a/b', package='xml.dom').result()\n"
+    words += "sys.exit(answer != 'b' or 'xml.dom' not in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", words], check=False).returncode == 0

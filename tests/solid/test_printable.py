@@ -80,6 +80,15 @@ def test_a_pinch_along_an_edge_stays_closed():
     assert np.abs(W - both[0]).max() < 1e-3
 
 
+def test_a_pinch_around_zero_stays_closed_for_readers_that_round():
+    V, F = TETRAHEDRON
+    half = V + np.array([2e-9, 0, 0])
+    V, F = printable(*joined(Shape(half, F), Shape(half * [-1, -1, 1], F)))
+    places = np.unique(np.round(V.astype(np.float32).astype(float), 8), axis=0)
+    assert len(places) == len(V) == 8
+    assert not open_halfedges(F.tolist())
+
+
 def test_loose_triangles_are_joined():
     V, F = torus(600)
     W, G = printable(V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3))
