@@ -98,9 +98,12 @@ class TooThick(SolidError):
     """
 
     def __init__(self, thickness: float, largest: float) -> None:
-        super().__init__(f"walls of {thickness:.3g} mm are too thick for this model")
         step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
         self.largest = float(np.floor(largest / step) * step)  # rounded down to two digits
+        super().__init__(
+            f"walls of {thickness:.3g} mm are too thick for this model",
+            hint=f"a thickness of {self.largest:.3g} mm may do",
+        )
 
 
 class ThinFacts(NamedTuple):
