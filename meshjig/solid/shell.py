@@ -22,7 +22,7 @@ Join = Literal["miter", "round"]
 
 _TRIES = 7  # thinner walls that are tried before none are advised
 _THINNEST = 0.3  # mm; what is thinner is no wall
-_MOST_THIN = 0.1  # share of the area that may be thinner, where a thickness is said to work
+_MOST_THIN = 1 / 3  # share of the area that may be thinner, where a thickness is said to work
 _LESS = 0.75  # of a thickness at which sheets still cross
 
 

@@ -1,8 +1,14 @@
 """A puzzle whose pieces hardly hold each other says so, and what it says helps."""
 
 import re
+from types import SimpleNamespace
+
+import numpy as np
 
 from meshjig import make_puzzle
+from meshjig.mesh.types import Mesh
+from meshjig.options import Options
+from meshjig.pipeline.notes import lock_note
 from tests.meshes import sphere
 
 SMALL = {"pieces": 30}
@@ -34,10 +40,18 @@ def test_pieces_asked_for_by_their_size_are_to_be_larger():
     assert locks(piece_size=larger)[0] > 0.5
 
 
-def test_tiles_lock_where_they_are_larger():
-    asked = {"tile": "classic", "clearance": 0.1}
-    share, notes = locks(pieces=60, **asked)
-    assert share < 0.5
-    assert "tiles lock where they are larger" in notes[0]
-    pieces = int(re.search(r"--pieces (\d+)", notes[0])[1])
-    assert locks(pieces=pieces, **asked)[0] > share
+class FewLocks:
+    """Borders of which a fifth is locked."""
+
+    def interlocked_length(self, clearance):
+        return 0.2
+
+
+def test_tiles_are_to_be_larger():
+    whole = SimpleNamespace(
+        cells=None, atlas=SimpleNamespace(mesh=Mesh(*sphere(320, 10.0))), piece_of_face=np.arange(60)
+    )
+    note = lock_note(whole, FewLocks(), Options.of(tile="classic", pieces=60))
+    assert "20 % of the border length" in note
+    assert "--size 32" in note
+    assert "--pieces 24" in note
