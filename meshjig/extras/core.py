@@ -189,11 +189,14 @@ def hollowed(
     Body
         In one part. What is too small, or has no way out through the wall anywhere low, stays filled.
     drains : int
-    filled : float, mm3, of hollows without a way out
+    filled : float, mm3, of hollows without a way out, or of all where none could be made
     """
     V, F = inset_surface(around, depth + wall, _COARSE * cell, wall)
     drains, filled = 0, 0.0
-    for hollow in body(V, F).decompose() if len(F) else []:
+    inside = body(V, F) if len(F) else None
+    if inside is not None and not sound(inside):
+        return core, 0, core.volume()
+    for hollow in inside.decompose() if inside is not None else []:
         if hollow.volume() < _SMALLEST * wall**3:
             continue
         empty = core - hollow
