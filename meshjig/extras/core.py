@@ -194,8 +194,10 @@ def hollowed(
     V, F = inset_surface(around, depth + wall, _COARSE * cell, wall)
     drains, filled = 0, 0.0
     inside = body(V, F) if len(F) else None
-    if inside is not None and not sound(inside):
-        return core, 0, core.volume()
+    if inside is not None and not sound(inside):  # where a lid crosses the sheet, signs of faces contradict
+        inside = body(*inset_surface(around.by_winding(), depth + wall, _COARSE * cell, wall))
+        if not sound(inside):
+            return core, 0, core.volume()
     for hollow in inside.decompose() if inside is not None else []:
         if hollow.volume() < _SMALLEST * wall**3:
             continue

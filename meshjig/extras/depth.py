@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
@@ -55,6 +57,12 @@ class Depth:
             weighted = np.arccos(np.clip(cosine, -1, 1))[:, None] * self._of_face
             for axis in range(3):
                 self._of_vertex[:, axis] += np.bincount(F[:, k], weighted[:, axis], len(V))
+
+    def by_winding(self) -> Depth:
+        """Give the same for a surface that crosses itself; see ``crossed``."""
+        other = copy(self)
+        other._crossed = True
+        return other
 
     def at(self, points: Floats) -> tuple[Floats, Floats]:
         """Give how deep points (k, 3) lie, (k,), and the nearest points of the surface, (k, 3)."""

@@ -58,7 +58,8 @@ def core_note(core: CoreFacts | None) -> str | None:
     """Say so where a core is not hollow everywhere."""
     if core is None or core.filled_mm3 == 0:
         return None
-    return f"{core.filled_mm3 / 1000:.0f} cm3 of the core are solid, since no hollow with a drain could be made there"
+    solid = f"{core.filled_mm3 / 1000:.0f} cm3 of the core are solid"
+    return f"{solid}, since no hollow with a drain could be made there"
 
 
 def _ways(advice: LockAdvice, extent: float, size: float, options: Options) -> list[str]:
