@@ -115,16 +115,15 @@ def _on_all_components(s: Surface, seeds: Ints, n: int, seed: int) -> Ints:
 
 
 def _refuse_what_is_no_disc(extracted: Extracted) -> None:
-    bad = np.flatnonzero(~extracted.good)
+    bad, cut = np.flatnonzero(~extracted.good), extracted.cut
     if not len(bad):
         return
-    used = np.unique(extracted.cut.mesh.F[extracted.cut.cell == bad[0]])
-    where = ""
-    if len(used):
-        x, y, z = extracted.cut.mesh.V[used].mean(0)
-        where = f", the first around ({x:.0f}, {y:.0f}, {z:.0f}) mm"
+    middles = [
+        cut.mesh.V[cut.mesh.F[cut.cell == cell]].mean((0, 1)) for cell in bad if (cut.cell == cell).any()
+    ]
+    where = f", the first around ({', '.join(f'{x:.0f}' for x in middles[0])}) mm" if middles else ""
     raise CutError(
         f"{len(bad)} of {extracted.n} pieces would be rings, or worse{where}",
-        hint="ask for more pieces",
+        hint="smooth the surface there in a mesh editor",
         ids=bad.tolist(),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,8 @@ from meshjig.cli.streams import error_stream, say
 from meshjig.runtime.messages import tell
 
 __all__ = ["progress_bar", "tell_next_step", "tell_notes"]
+
+FEW = 4  # names that a note gives
 
 
 @contextmanager
@@ -64,17 +66,23 @@ def tell_notes(report: Mapping[str, Any]) -> None:
     made, options = len(report["pieces"]), report["options"]
     if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
         say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit this model")
-    for note in report["input"]["notes"]:
+    for note in [*report["input"]["notes"], *report.get("notes", [])]:
         say(f"meshjig: note: {note}")
     limbs = report.get("cells", {}).get("thin_limbs", [])
     for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])
         say(f"meshjig: note: the limb around ({where}) mm is thin: {limb['pieces']} pieces would suit it")
-    necks, walls = report["checks"]["thin_necks"], report["checks"]["thin_walls"]
+    necks, walls = report["checks"]["thin_necks"], report["names"].get("thin_walls", [])
     if necks:
-        say(f"meshjig: note: {necks} knobs have necks thinner than {options['min_neck']:g} mm")
+        many = (
+            f"{_count(necks, 'knob has a neck', 'knobs have necks')} thinner than {options['min_neck']:g} mm"
+        )
+        say(f"meshjig: note: {many}: {_some_of(report['names']['thin_necks'])}")
     if walls:
-        say(f"meshjig: note: {walls} pieces have places thinner than {options['min_wall']:g} mm")
+        many = (
+            f"{_count(len(walls), 'piece has', 'pieces have')} places thinner than {options['min_wall']:g} mm"
+        )
+        say(f"meshjig: note: {many}: {_some_of(walls)}")
     bare = len(report.get("labels", {}).get("skipped", ()))
     if bare:
         say(f"meshjig: note: {bare} pieces have no room for their number (see labels in report.json)")
@@ -84,3 +92,12 @@ def tell_notes(report: Mapping[str, Any]) -> None:
     for fact in report.get("plates", ()):
         if fact["plate"] is None:
             say(f"meshjig: note: {fact['why']}")
+
+
+def _count(n: int, one: str, many: str) -> str:
+    return f"{n} {one if n == 1 else many}"
+
+
+def _some_of(names: Sequence[str]) -> str:
+    """List names, the first of them where they are many."""
+    return ", ".join(names[:FEW]) + (f" and {len(names) - FEW} more" if len(names) > FEW else "")

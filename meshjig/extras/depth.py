@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import area_vectors, barycentric, unit
+from meshjig.mesh.types import Mesh
 
 __all__ = ["Depth"]
 
@@ -26,15 +29,20 @@ class Depth:
     F : (m, 3) int64, closed, oriented outward
     crossed : bool
         The surface crosses itself: what it winds around is inside. Twice as slow.
+    beside : Mesh, optional
+        Another surface, to which distances are measured as well; it may be open, and has no inside.
 
     References
     ----------
     Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005.
     """
 
-    def __init__(self, V: Floats, F: Ints, *, crossed: bool = False) -> None:
+    def __init__(self, V: Floats, F: Ints, *, crossed: bool = False, beside: Mesh | None = None) -> None:
         import igl
 
+        self._closed = np.ascontiguousarray(F)
+        if beside is not None:
+            V, F = np.concatenate([V, beside.V]), np.concatenate([F, beside.F + len(V)])
         self.V, self.F = np.ascontiguousarray(V), np.ascontiguousarray(F)
         self._tree = igl.AABB()
         self._tree.init(self.V, self.F)
@@ -49,6 +57,12 @@ class Depth:
             weighted = np.arccos(np.clip(cosine, -1, 1))[:, None] * self._of_face
             for axis in range(3):
                 self._of_vertex[:, axis] += np.bincount(F[:, k], weighted[:, axis], len(V))
+
+    def by_winding(self) -> Depth:
+        """Give the same for a surface that crosses itself; see ``crossed``."""
+        other = copy(self)
+        other._crossed = True
+        return other
 
     def at(self, points: Floats) -> tuple[Floats, Floats]:
         """Give how deep points (k, 3) lie, (k,), and the nearest points of the surface, (k, 3)."""
@@ -69,10 +83,10 @@ class Depth:
         normal[on_vertex] = self._of_vertex[self.F[face[on_vertex], tip[on_vertex]]]
         distance = np.sqrt(squared)
         height = np.einsum("ij,ij->i", points - foot, unit(normal))
-        doubtful = self._crossed | (np.abs(height) < _DOUBTFUL * distance)
+        doubtful = self._crossed | (np.abs(height) < _DOUBTFUL * distance) | (face >= len(self._closed))
         if doubtful.any():
             import igl
 
-            winding = np.asarray(igl.fast_winding_number(self.V, self.F, points[doubtful]))
+            winding = np.asarray(igl.fast_winding_number(self.V, self._closed, points[doubtful]))
             height[doubtful] = 0.5 - winding
         return np.where(height < 0, distance, -distance), face, foot

@@ -17,8 +17,9 @@ _CYCLE = [0, 1, 3, 2, 4, 5, 7, 6]  # the corners as marching cubes wants them: a
 _SIDES = ([0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7])
 _BITS = 20
 _OFF = 0.1  # cells: a point nearer to the surface would make for slivers
-_SPARE = 0.5  # cells inside the thinnest part that are known as well
-_GRID = 1.0  # cells, by which a ball may be farther: its middle need not be on the grid
+_SPARE = 1.0  # cells inside the thinnest part that are known as well
+_BALLS = 12  # near a point, of which the one that reaches farthest is taken
+_BEYOND = 0.75  # cells, by which a ball may reach farther: its middle need not be on the grid
 _CUT = 0.25  # cells, how far outside a point is taken to be that was left out
 
 
@@ -30,7 +31,8 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
     surface : Depth
     depth : float, mm
     cell : float, mm, edge of a cube of the grid
-    thinnest : float, mm; parts of the inside that are thinner, and wider than a cell, are left out
+    thinnest : float, mm; parts of the inside that are thinner are left out, and where they join thicker ones
+        their ends are smooth
 
     Returns
     -------
@@ -45,7 +47,8 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
 
     low = surface.V.min(axis=0) - 0.49 * cell
     size = 2**_LEVELS
-    spare = max(cell, thinnest / 2 + _SPARE * cell)
+    radius = thinnest / 2
+    spare = max(cell, radius + _SPARE * cell)
     counts = np.ceil((surface.V.max(axis=0) - low) / (cell * size)).astype(np.int64)
     cubes = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), -1).reshape(-1, 3) * size
     while size > 1:
@@ -61,7 +64,8 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
     of_corner = of_corner.reshape(-1, 8).astype(np.int64)
     points = low + cell * np.stack([key >> _BITS * k & (1 << _BITS) - 1 for k in range(3)], -1)
     value = surface.at(points)[0] - depth
-    value[_unsupported(points, value, thinnest / 2, cell)] = -_CUT * cell
+    if radius:
+        value = _opened(points, value, radius, cell)
     _well_composed(value, of_corner, _CUT * cell)
     above = value[of_corner] > 0
     crossed = above.any(axis=1) & ~above.all(axis=1)
@@ -71,15 +75,24 @@ def inset_surface(surface: Depth, depth: float, cell: float, thinnest: float = 0
     return V, F if mesh_volume(V, F) > 0 else F[:, ::-1]
 
 
-def _unsupported(points: Floats, value: Floats, radius: float, cell: float) -> Ints:
-    """List points inside that are far from any that has a ball of a radius around it inside."""
+def _opened(points: Floats, value: Floats, radius: float, cell: float) -> Floats:
+    """Hold values (n,) inside to what balls of a radius inside reach, and somewhat beyond.
+
+    The distance to the surface changes no faster than one goes, so the ball around a point is as large as its
+    value; where the largest ones end, a thin part is cut off along their smooth hull.
+    """
     from scipy.spatial import cKDTree
 
     thick, rest = np.flatnonzero(value >= radius), np.flatnonzero((value > 0) & (value < radius))
     if not len(thick):
-        return rest
-    near = cKDTree(points[thick]).query(points[rest], distance_upper_bound=radius + _GRID * cell)[0]
-    return rest[np.isinf(near)]
+        return np.where(value > 0, -_CUT * cell, value)
+    value = value.copy()
+    if not len(rest):
+        return value
+    away, which = cKDTree(points[thick]).query(points[rest], k=min(_BALLS, len(thick)))
+    reach = (value[thick][which] - away).reshape(len(rest), -1).max(axis=1)
+    value[rest] = np.minimum(value[rest], reach + _BEYOND * cell)
+    return value
 
 
 def _well_composed(value: Floats, of_corner: Ints, out: float) -> None:

@@ -14,6 +14,7 @@ from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
 from meshjig.output.piece import Piece
+from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
 from meshjig.solid.printable import all_printable
@@ -89,7 +90,7 @@ def build_core(surface: Mesh, sheets: Shell, options: Options, up: Floats) -> Co
             wall=CORE_WALLS * options.min_wall,
             min_wall=options.min_wall,
             up=up,
-            plate=None if plate is None else (plate.width, plate.depth, plate.height),
+            plate=None if plate is None else (plate.width - 2 * GAP, plate.depth - 2 * GAP, plate.height),
         ),
     )
     sound = all_printable(parts)

@@ -8,43 +8,37 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from meshjig.charts import MappedAtlas
 from meshjig.cut import cut_curves, gap_outlines, merge_periodic, overlay, transfer_pieces
-from meshjig.errors import OptionError
-from meshjig.layout.cells import cell_layout
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.interlock import interlock
 from meshjig.layout.layout import Layout, Parts, affected_pieces
 from meshjig.layout.tiles import tile_layout
-from meshjig.mesh.components import components
-from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, sums
 from meshjig.mesh.pieces import Pieces, piece_names
-from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.material import bulk_of, material_of
 from meshjig.output.texture import textures
 from meshjig.pipeline.bodies import note_contacts
+from meshjig.pipeline.cells_or_advice import cells_or_advice
 from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
-from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
-from meshjig.pipeline.prepare import chart, clean_scan
+from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_unknown_names
+from meshjig.pipeline.prepare import clean_scan
 from meshjig.pipeline.report import Made, assemble_report
 from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.verify import verify
+from meshjig.pipeline.work_mesh import work_atlas, work_mesh
 from meshjig.puzzle import Curves, Piece, Puzzle
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
-from meshjig.scan import Scan, self_crossings
+from meshjig.scan import self_crossings
 from meshjig.solid import Shell, kerf, shell
 from meshjig.solid.kerf import KerfFacts
 
 __all__ = ["make_puzzle"]
-
-MUCH_FINER = 1.1  # times as many faces: more freedom for charts
 
 
 def make_puzzle(
@@ -85,21 +79,20 @@ def make_puzzle(
     with stages("scan"):
         scan = clean_scan(mesh, options)
         up = pictures.up = up_direction(options.up, scan.source, scan.mesh)
-        longest = _longest_edge(scan.mesh, options)
-        surface = Mesh(*refine_long_edges(scan.mesh.V, scan.mesh.F, longest))
+        surface, longest = work_mesh(scan.mesh, options)
     small = len(surface.F) < SOLIDS_WORTH_A_CHILD
     beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
     try:
         if options.layout == "cells":
-            layout = cell_layout(surface, options, stages)
+            layout = cells_or_advice(surface, options, stages)
             pictures.atlas(layout.atlas)
         else:
             with stages("charts"):
-                atlas = _atlas(scan, surface, longest, options)
+                atlas = work_atlas(scan, surface, longest, options)
             pictures.atlas(atlas)
             layout = tile_layout(atlas, options, stages)
         pictures.layout(layout)
-        _refuse_a_hollow_piece(layout, options)
+        refuse_hollow_piece(layout.cut.mesh, layout.piece_of_face, options)
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
@@ -179,37 +172,6 @@ def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, 
     sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
     none: Ints = np.zeros((0, 2), np.int64)
     return sheets, None if pairs is None else len(pairs), none if crossing is None else crossing
-
-
-def _longest_edge(mesh: Mesh, options: Options) -> float:
-    """Give a quarter of a tile, mm: no tile may fall inside a single face."""
-    area = float(face_areas(mesh.V, mesh.F).sum())
-    tile = options.piece_size or float(np.sqrt(area / options.pieces))
-    refuse_too_small_pieces(tile, area, options)
-    refuse_small_plate(tile, options)
-    return tile / 4
-
-
-def _atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> MappedAtlas:
-    """Chart the surface; before it was refined, where that makes little difference to its faces.
-
-    So a few long edges don't change the charts that `info` has shown.
-    """
-    if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
-        return chart(replace(scan, mesh=surface), options)
-    return refine_atlas(chart(scan, options), longest)
-
-
-def _refuse_a_hollow_piece(layout: Layout, options: Options) -> None:
-    """Refuse to make the model's main part, where it is closed, a single piece: it would be hollow."""
-    F, piece = layout.cut.F, layout.piece_of_face
-    n, component = components(F)
-    main = component == np.bincount(component, face_areas(layout.cut.V, F), n).argmax()
-    open_parts = component[border_halfedges(F) // 3]
-    if np.ptp(piece[main]) == 0 and not np.isin(component[main][:1], open_parts).any():
-        joined = options.min_piece > Options.model_fields["min_piece"].default
-        hint = f"use a smaller --min-piece than {options.min_piece:g}" if joined else "ask for more pieces"
-        raise OptionError("the model would be a single hollow piece", hint=hint)
 
 
 def _leave_gaps(layout: Layout, options: Options) -> Parts:

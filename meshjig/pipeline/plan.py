@@ -1,4 +1,4 @@
-"""What a puzzle will be, before it is made: pieces, their size, plates, material and hours."""
+"""What a puzzle will be, before it is cut: pieces, their size, plates, core, material and hours."""
 
 from __future__ import annotations
 
@@ -6,16 +6,22 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.mesh.measure import face_areas, mesh_volume
-from meshjig.mesh.mesh import Mesh
+from meshjig.cells import grow_cells
+from meshjig.errors import CutError
+from meshjig.mesh.measure import face_areas
+from meshjig.mesh.types import Mesh
 from meshjig.options import Options
 from meshjig.output.plates.lay_out import GAP
-from meshjig.output.plates.material import Bulk, bulk_of_core, bulk_of_surface, material_of
+from meshjig.output.plates.material import bulk_of, bulk_of_surface, material_of
 from meshjig.output.plates.printers import estimate_plates, parse_plate
 from meshjig.output.report import Report
-from meshjig.pipeline.extras import CORE_WALLS
-from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces, refuse_unknown_names
+from meshjig.pipeline.cells_or_advice import refuse_cells
+from meshjig.pipeline.extras import build_core
+from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
+from meshjig.pipeline.up import up_direction
+from meshjig.pipeline.work_mesh import piece_size, work_atlas, work_mesh
+from meshjig.solid import Shell, shell
 
 __all__ = ["plan_puzzle"]
 
@@ -23,7 +29,7 @@ COMMON_PLATE = "220x220"
 
 
 def plan_puzzle(mesh: Any, options: Options) -> Report:
-    """Say what `make_puzzle` would make of a mesh, from its surface alone.
+    """Say what `make_puzzle` would make of a mesh, after all that it does before anything is cut.
 
     Parameters
     ----------
@@ -33,28 +39,36 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     Returns
     -------
     dict
-        "model": {"faces", "size_mm": [x, y, z], "units": str, "area_mm2"}; "layout"; "pieces": int;
-        "piece_size_mm": edge of a square as large as a piece; "thickness_mm"; "clearance_mm";
-        "plate": str; "plates": int; "material": {"volume_mm3", "grams", "hours"}, see
-        `meshjig.output.plates.material.material_of`.
+        "model": {"faces", "size_mm": [x, y, z], "units", "area_mm2"}; "layout"; "pieces": int, cells as
+        they grow, tiles as asked for; "piece_size_mm": edge of a square as large as a piece;
+        "thickness_mm"; "clearance_mm"; "core": {"parts", "volume_mm3"} where there is one; "plate": str;
+        "plates": int, those of a core too; "material": {"volume_mm3", "grams", "hours"}, of pieces and
+        core, see `meshjig.output.plates.material.material_of`.
 
     Raises
     ------
     MeshjigError
-        What `make_puzzle` would refuse before its work begins.
+        What `make_puzzle` would refuse before it cuts: sizes, names, walls and cores without room, cells
+        that are no discs, charts that can't be made.
     """
     refuse_unknown_names(options)
     scan = clean_scan(mesh, options)
-    surface = scan.mesh
-    area = float(face_areas(surface.V, surface.F).sum())
-    size = options.piece_size or float(np.sqrt(area / options.pieces))
-    refuse_too_small_pieces(size, area, options)
-    refuse_small_plate(size, options)
+    surface, longest = work_mesh(scan.mesh, options)
+    area, size = float(surface.areas.sum()), piece_size(scan.mesh, options)
     n = max(1, round(area / size**2))
+    if options.layout == "cells":
+        n = _cells(surface, n, options)
+    else:
+        work_atlas(scan, surface, longest, options)
+    sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
+    core = build_core(surface, sheets, options, up_direction(options.up, scan.source, scan.mesh))
+    size = float(np.sqrt(area / n))
+    bulk = bulk_of_surface(area, _wall(surface, sheets), size).plus(bulk_of(core.parts if core else []))
     plate = parse_plate(options.plate or COMMON_PLATE)
+    facts = {} if core is None else {"core": {"parts": core.facts.parts, "volume_mm3": core.facts.volume_mm3}}
     return {
         "model": {
-            "faces": len(surface.F),
+            "faces": len(scan.mesh.F),
             "size_mm": np.ptp(surface.V, axis=0).tolist(),
             "units": scan.facts.units,
             "area_mm2": area,
@@ -64,15 +78,27 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "piece_size_mm": size,
         "thickness_mm": options.thickness,
         "clearance_mm": options.clearance,
+        **facts,
         "plate": str(plate),
-        "plates": estimate_plates(n, area, plate, GAP),
-        "material": material_of(_bulk(surface, area, size, options), options.process),
+        "plates": estimate_plates(n, area, plate, GAP) + (core.facts.parts if core else 0),
+        "material": material_of(bulk, options.process),
     }
 
 
-def _bulk(surface: Mesh, area: float, size: float, options: Options) -> Bulk:
-    """Tell what pieces of a size (mm), and the core where it is asked for, will be."""
-    pieces = bulk_of_surface(area, options.thickness, size)
-    if not options.core:
-        return pieces
-    return pieces.plus(bulk_of_core(area, abs(mesh_volume(*surface)), CORE_WALLS * options.min_wall))
+def _cells(surface: Mesh, n: int, options: Options) -> int:
+    """Give the number of cells that a surface has."""
+    try:
+        cells = grow_cells(
+            surface, n, seed=options.seed, style=options.style, crease_aware=options.crease_aware
+        )
+    except CutError as error:
+        raise refuse_cells(error, surface, options) from None
+    refuse_hollow_piece(cells.mesh, cells.cell, options)
+    return cells.n_cells
+
+
+def _wall(surface: Mesh, sheets: Shell) -> float:
+    """Give the volume between two sheets over the area of the surface, mm."""
+    half = Mesh(sheets.outer + sheets.D / 2, surface.F)
+    depth = np.linalg.norm(sheets.D, axis=1)[surface.F].mean(axis=1)
+    return float((face_areas(half.V, half.F) * depth).sum() / surface.areas.sum())

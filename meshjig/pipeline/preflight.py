@@ -8,13 +8,16 @@ from collections.abc import Callable
 import numpy as np
 
 from meshjig.errors import OptionError
+from meshjig.mesh.components import components
+from meshjig.mesh.halfedges import border_halfedges
+from meshjig.mesh.types import Ints, Mesh
 from meshjig.options import Options
 from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import parse_plate
 from meshjig.tiling.registry import get_family
 from meshjig.tiling.unit import edge_ends
 
-__all__ = ["refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
+__all__ = ["refuse_hollow_piece", "refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
 
 FEWEST = 2  # pieces that a puzzle can have
 NARROWEST = 0.5  # of a piece's size: pieces as narrow as that are rare
@@ -74,6 +77,29 @@ def refuse_small_plate(size: float, options: Options) -> None:
             f"plate: pieces of about {size:.2g} mm fit no plate of {plate}, with {GAP:g} mm around each",
             hint="use a larger --plate, or ask for more pieces",
         )
+
+
+def refuse_hollow_piece(mesh: Mesh, piece: Ints, options: Options) -> None:
+    """Refuse to make the model's main part, where it is closed, a single piece: it would be hollow.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    piece : (m,) int64, of every face
+    options : Options
+
+    Raises
+    ------
+    OptionError
+        It would be.
+    """
+    n, component = components(mesh.F)
+    main = component == np.bincount(component, mesh.areas, n).argmax()
+    open_parts = component[border_halfedges(mesh.F) // 3]
+    if np.ptp(piece[main]) == 0 and not np.isin(component[main][:1], open_parts).any():
+        joined = options.min_piece > Options.model_fields["min_piece"].default
+        hint = f"use a smaller --min-piece than {options.min_piece:g}" if joined else "ask for more pieces"
+        raise OptionError("the model would be a single hollow piece", hint=hint)
 
 
 def refuse_unknown_names(options: Options) -> None:

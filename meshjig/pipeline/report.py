@@ -21,6 +21,7 @@ from meshjig.options import Options
 from meshjig.output.report import Report
 from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
+from meshjig.pipeline.notes import core_note, lock_note
 from meshjig.pipeline.verify import Mended
 from meshjig.scan import Scan
 from meshjig.solid.kerf import KerfFacts
@@ -102,6 +103,7 @@ def assemble_report(made: Made) -> Report:
         "exempt": made.verdict.exempt,
         "ok": not failures,
         "exempt_pieces": made.exempt,
+        "notes": _notes(made),
     }
     if options.labels:
         report["labels"] = asdict(made.labels) if made.labels else {}
@@ -110,6 +112,13 @@ def assemble_report(made: Made) -> Report:
     if made.unique:
         report["unique"] = told(made.unique)
     return report
+
+
+def _notes(made: Made) -> list[str]:
+    """Give what a maker should know though no promise is broken, a sentence each."""
+    core = made.core.facts if made.core else None
+    notes = [lock_note(made.layout, made.locks, made.options), core_note(core)]
+    return [note for note in notes if note is not None]
 
 
 def _layout(layout: Layout) -> Report:

@@ -12,7 +12,15 @@ from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import area_vectors, face_areas, mesh_volume
 from meshjig.mesh.rays import RayScene
 
-__all__ = ["ThinFacts", "check_thickness", "inward_room", "refuse_crowds", "thin_share", "thinness"]
+__all__ = [
+    "ThinFacts",
+    "TooThick",
+    "check_thickness",
+    "inward_room",
+    "refuse_crowds",
+    "thin_share",
+    "thinness",
+]
 
 _SHARE = 0.45  # of the way through the model; two walls meet at half
 _FAR = 1e9  # mm
@@ -80,6 +88,24 @@ def _frame(d: Floats) -> tuple[Floats, Floats]:
     return side, np.cross(d, side)
 
 
+class TooThick(SolidError):
+    """A model has no room for walls so thick.
+
+    Parameters
+    ----------
+    thickness : float, mm, that was wanted
+    largest : float, mm, that may do
+    """
+
+    def __init__(self, thickness: float, largest: float) -> None:
+        step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
+        self.largest = float(np.floor(largest / step) * step)  # rounded down to two digits
+        super().__init__(
+            f"walls of {thickness:.3g} mm are too thick for this model",
+            hint=f"a thickness of {self.largest:.3g} mm may do",
+        )
+
+
 class ThinFacts(NamedTuple):
     """Where walls came out too thin."""
 
@@ -119,10 +145,9 @@ def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
 
     Raises
     ------
-    SolidError
+    TooThick
         The thickness is over a third of a closed model's smallest extent or of an open model's middle one,
-        or twice what more than half of the surface has room for; the sentence names the largest thickness
-        that works.
+        or twice what more than half of the surface has room for.
     """
     largest = 2 * _quantile(room[F].mean(1), face_areas(V, F), 0.5)
     closed = mesh_volume(V, F) > 0 and not len(border_halfedges(F))
@@ -130,22 +155,14 @@ def check_thickness(V: Floats, F: Ints, thickness: float, room: Floats) -> None:
     if thickness > third:
         largest = min(largest, third)
     if thickness > largest:
-        raise _too_thick(thickness, largest)
+        raise TooThick(thickness, largest)
 
 
 def refuse_crowds(V: Floats, F: Ints, thickness: float, room: Floats, distance: Floats) -> None:
     """Refuse a wall that crosses itself where much of it is too thin as well: the model lacks the room."""
     if thin_share(V, F, distance < _THIN * thickness) > _CROWDED:
         fits = _quantile(room[F].mean(1), face_areas(V, F), _CROWDED) / _THIN
-        raise _too_thick(thickness, min(fits, _THIN * thickness))
-
-
-def _too_thick(thickness: float, largest: float) -> SolidError:
-    step = 10.0 ** np.floor(np.log10(max(largest, 1e-6)) - 1)
-    return SolidError(
-        f"walls of {thickness:g} mm are too thick for this model",
-        hint=f"the largest thickness that works at this size is {np.floor(largest / step) * step:.3g} mm",
-    )
+        raise TooThick(thickness, min(fits, _THIN * thickness))
 
 
 def _quantile(values: Floats, weights: Floats, q: float) -> float:

@@ -7,6 +7,7 @@ from meshjig.extras.cap_openings import cap_openings
 from meshjig.extras.depth import Depth
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.measure import face_areas, mesh_volume
+from meshjig.mesh.types import Mesh
 from tests.meshes import (
     Shape,
     cavity_shell,
@@ -75,3 +76,13 @@ def test_closed_surfaces_stay_as_they_are():
 def test_flat_sheets_close_to_nothing():
     V, F, _ = cap_openings(*disc(300))
     assert mesh_volume(V, F) == pytest.approx(0, abs=1e-6)
+
+
+def test_another_surface_beside_is_kept_away_from_and_has_no_inside():
+    ball, plate = sphere(2000), disc(400)  # the plate goes through the middle of the ball
+    points = np.array([[0.0, 0.0, 3.0], [0.0, 0.0, -3.0], [0.0, 0.0, 48.0], [0.0, 0.0, 60.0]])
+    alone = Depth(*ball).at(points)[0]
+    both = Depth(*ball, beside=Mesh(*plate)).at(points)[0]
+    assert alone[:2] == pytest.approx([47.0, 47.0], abs=0.5)
+    assert both[:2] == pytest.approx([3.0, 3.0], abs=1e-6)
+    assert both[2:] == pytest.approx(alone[2:])

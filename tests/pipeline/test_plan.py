@@ -3,10 +3,10 @@
 import pytest
 
 from meshjig import make_puzzle
-from meshjig.errors import OptionError
+from meshjig.errors import OptionError, SolidError
 from meshjig.options import Options
 from meshjig.pipeline.plan import plan_puzzle
-from tests.meshes import sphere
+from tests.meshes import disc, sphere
 
 ASKED = {"pieces": 24, "size": 100, "plate": "120x120"}
 
@@ -34,3 +34,21 @@ def test_what_would_be_refused_is_refused():
     for plate in ("nowhere", "5x5", "4x200"):
         with pytest.raises(OptionError, match="plate"):
             plan_puzzle(sphere(2000), Options.of(plate=plate))
+
+
+def test_core_and_units_are_told_and_count():
+    bare, with_core = (plan_puzzle(sphere(2000), Options.of(**ASKED, core=core)) for core in (False, True))
+    assert "mm" in bare["model"]["units"]
+    assert "core" not in bare
+    core = with_core["core"]["volume_mm3"]
+    assert core > 0
+    grown = with_core["material"]["volume_mm3"] - bare["material"]["volume_mm3"]
+    assert grown == pytest.approx(core, rel=1e-6)
+    assert with_core["plates"] > bare["plates"]
+
+
+def test_what_has_no_room_is_refused():
+    with pytest.raises(SolidError, match="too thick"):
+        plan_puzzle(sphere(2000), Options.of(thickness=50))
+    with pytest.raises(SolidError, match="core"):
+        plan_puzzle(disc(400), Options.of(pieces=8, core=True))

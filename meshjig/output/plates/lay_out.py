@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -21,7 +21,7 @@ from meshjig.output.plates.pack import (
     pack,
     size_at,
 )
-from meshjig.output.plates.pose import Pose, lying_pose
+from meshjig.output.plates.pose import Pose, axis_poses, lying_pose
 from meshjig.output.plates.printers import Nesting, Plate
 from meshjig.output.texture import carried
 from meshjig.solid.printable import printable
@@ -86,12 +86,15 @@ def lay_out(
     lying, left_out = [], []
     sides: list[tuple[float, ...]] = []  # of those left out
     for piece in pieces:
-        pose = lying_pose(piece.V, piece.F, piece.outer_normal)
-        V = _on_ground(piece.V @ pose.R.T)
-        if V[:, 2].max() <= plate.height and fits(V[:, :2], plate, gap):
-            lying.append(_Lying(piece, V, pose))
+        found = []
+        for pose in _poses(piece):
+            V = _on_ground(piece.V @ pose.R.T)
+            found.append(_sides(V))
+            if V[:, 2].max() <= plate.height and fits(V[:, :2], plate, gap):
+                lying.append(_Lying(piece, V, pose))
+                break
         else:
-            sides.append(_sides(V))
+            sides.append(found[0])
             left_out.append(LeftOut(piece.name, None, _too_large(piece.name, sides[-1], plate)))
     if not lying:
         if left_out:
@@ -108,6 +111,12 @@ def lay_out(
         _placed(one, shadow, where, i) for i, (one, shadow) in enumerate(zip(lying, shadows, strict=True))
     ]
     return placed, left_out
+
+
+def _poses(piece: Piece) -> Iterator[Pose]:
+    """Give poses in which a piece may lie: the best one, and those along the axes should it not fit."""
+    yield lying_pose(piece.V, piece.F, piece.outer_normal)
+    yield from axis_poses(piece.V, piece.F, piece.outer_normal)
 
 
 def _on_ground(V: Floats) -> Floats:

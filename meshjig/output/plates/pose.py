@@ -9,7 +9,7 @@ import numpy as np
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import area_vectors, barycentric, unit
 
-__all__ = ["STEEP", "Pose", "lying_pose"]
+__all__ = ["STEEP", "Pose", "axis_poses", "lying_pose"]
 
 STEEP = 45.0  # degrees from the horizontal; undersides as steep as that need no support
 ON_PLATE = 0.05  # mm above the plate; lower is held by the plate itself
@@ -76,6 +76,30 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
     best = int(np.where(flat & low, cost, np.inf).argmin())
     outer_up = None if up is None else bool(up[best] > 0)
     return Pose(_turn(down[best]), float(height[best]), extent, float(overhang[best]), outer_up)
+
+
+def axis_poses(V: Floats, F: Ints, outer_normal: Floats | None = None) -> list[Pose]:
+    """Give the six poses along the axes, the best first: for what fits a plate in no pose that is stable.
+
+    Parameters are those of `lying_pose`.
+    """
+    down = np.concatenate([np.eye(3), -np.eye(3)])
+    N = area_vectors(V, F) / 2
+    area = np.linalg.norm(N, axis=1)
+    depth = V @ down.T
+    height, extent = np.ptp(depth, axis=0), _extent(V)
+    overhang = _overhang(V, F, area, N @ down.T, down, depth.max(axis=0)) / area.sum()
+    up = None if outer_normal is None or not outer_normal.any() else -down @ unit(outer_normal)
+    return [
+        Pose(
+            _turn(down[k]),
+            float(height[k]),
+            extent,
+            float(overhang[k]),
+            None if up is None else bool(up[k] > 0),
+        )
+        for k in np.argsort(overhang + height / extent, kind="stable").tolist()
+    ]
 
 
 def _extent(points: Floats) -> float:

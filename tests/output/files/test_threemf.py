@@ -59,3 +59,10 @@ def test_every_object_is_built_once_in_mm(model):
 def test_a_path_that_cannot_be_written_is_told(tmp_path):
     with pytest.raises(OutputError, match=r"puzzle\.3mf"):
         write_3mf(tmp_path / "nowhere" / "puzzle.3mf", PIECES)
+
+
+def test_equal_pieces_give_equal_bytes_and_others_do_not(tmp_path):
+    for name, pieces in (("a", PIECES), ("b", PIECES), ("c", PIECES[:2])):
+        write_3mf(tmp_path / name, pieces)
+    a, b, c = ((tmp_path / name).read_bytes() for name in "abc")
+    assert a == b != c

@@ -1,0 +1,57 @@
+"""A puzzle whose pieces hardly hold each other says so, and what it says helps."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+
+from meshjig import make_puzzle
+from meshjig.mesh.types import Mesh
+from meshjig.options import Options
+from meshjig.pipeline.notes import lock_note
+from tests.meshes import sphere
+
+SMALL = {"pieces": 30}
+
+
+def locks(**options):
+    report = make_puzzle(sphere(320, 10.0), **options).report
+    return report["checks"]["interlocked_length"], report["notes"]
+
+
+def test_what_the_note_advises_locks_the_puzzle():
+    share, notes = locks(**SMALL)
+    assert share < 0.5
+    assert len(notes) == 1
+    assert "only 0 % of the border length is locked" in notes[0]
+    size, pieces = (float(re.search(rf"--{name} (\d+)", notes[0])[1]) for name in ("size", "pieces"))
+    assert "--process sla" in notes[0]
+    for better in ({"size": size, **SMALL}, {"pieces": int(pieces)}, {"process": "sla", **SMALL}):
+        share, notes = locks(**better)
+        assert share > 0.5
+        assert not notes
+
+
+def test_pieces_asked_for_by_their_size_are_to_be_larger():
+    share, notes = locks(piece_size=6.5)
+    assert share < 0.5
+    larger = float(re.search(r"--piece-size (\d+\.?\d*)", notes[0])[1])
+    assert "--size" not in notes[0]
+    assert locks(piece_size=larger)[0] > 0.5
+
+
+class FewLocks:
+    """Borders of which a fifth is locked."""
+
+    def interlocked_length(self, clearance):
+        return 0.2
+
+
+def test_tiles_are_to_be_larger():
+    whole = SimpleNamespace(
+        cells=None, atlas=SimpleNamespace(mesh=Mesh(*sphere(320, 10.0))), piece_of_face=np.arange(60)
+    )
+    note = lock_note(whole, FewLocks(), Options.of(tile="classic", pieces=60))
+    assert "20 % of the border length" in note
+    assert "--size 32" in note
+    assert "--pieces 24" in note
