@@ -167,7 +167,7 @@ class _Failed:
 
 
 _PACKAGE = "meshjig.scan"
-_READER = "meshjig.scan.reading", "read_file"  # by name: to import it takes as long as to read
+_READER = "meshjig.scan.files.reading", "read_file"  # by name: to import it takes as long as to read
 
 
 class ReadAhead:
@@ -188,7 +188,7 @@ class ReadAhead:
 
         Returns
         -------
-        meshjig.scan.reading.FileMesh
+        meshjig.scan.files.reading.FileMesh
 
         Raises
         ------

@@ -12,8 +12,8 @@ from meshjig.errors import InputError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.measure import face_areas
 from meshjig.runtime.bounded import OutOfBounds, ReadAhead
-from meshjig.scan.file_mesh import FileMesh
-from meshjig.scan.from_trimesh import from_trimesh
+from meshjig.scan.files.file_mesh import FileMesh
+from meshjig.scan.files.from_trimesh import from_trimesh
 from meshjig.scan.source import Source
 
 __all__ = ["Loaded", "load"]

@@ -13,9 +13,9 @@ from meshjig.output.files.read_pieces import read_pieces
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
 from meshjig.output.texture import Texture, carried, colour_of_vertex, textures
-from meshjig.scan.attachments import PictureReader
-from meshjig.scan.from_trimesh import from_trimesh
-from meshjig.scan.gltf import read_gltf
+from meshjig.scan.files.attachments import PictureReader
+from meshjig.scan.files.from_trimesh import from_trimesh
+from meshjig.scan.files.gltf import read_gltf
 from meshjig.scan.source import Look, Source
 from tests.meshes import sphere
 

@@ -18,7 +18,7 @@ def test_an_answer_comes_back():
 
 def test_what_the_function_raises_is_raised_here(tmp_path):
     with pytest.raises(InputError, match="does not exist"):
-        Bounded("meshjig.scan.reading", "read_file", str(tmp_path / "none.stl")).result()
+        Bounded("meshjig.scan.files.reading", "read_file", str(tmp_path / "none.stl")).result()
 
 
 def test_a_crash_is_told_from_a_limit():

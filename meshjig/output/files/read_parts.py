@@ -12,9 +12,9 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.mesh.validated import validated, weld
 from meshjig.output.files.glb import MODEL
-from meshjig.scan.attachments import PictureReader
-from meshjig.scan.formats import gltf_shortfall
-from meshjig.scan.reading import load_by_trimesh
+from meshjig.scan.files.attachments import PictureReader
+from meshjig.scan.files.formats import gltf_shortfall
+from meshjig.scan.files.reading import load_by_trimesh
 
 __all__ = ["NamedPiece", "is_own_obj", "read_glb", "read_own_obj"]
 

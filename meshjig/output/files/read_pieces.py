@@ -16,9 +16,9 @@ from meshjig.output.files.read_parts import NamedPiece, is_own_obj, read_glb, re
 from meshjig.output.files.threemf import read_3mf
 from meshjig.output.report import Report, read_report
 from meshjig.runtime.bounded import Bounded, OutOfBounds, allow_file
-from meshjig.scan.attachments import PictureReader
-from meshjig.scan.formats import ply_shortfall
-from meshjig.scan.reading import check_file, load_by_trimesh
+from meshjig.scan.files.attachments import PictureReader
+from meshjig.scan.files.formats import ply_shortfall
+from meshjig.scan.files.reading import check_file, load_by_trimesh
 
 __all__ = ["PuzzleFiles", "read_core", "read_pieces", "read_puzzle_files"]
 

@@ -16,7 +16,7 @@ from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.validated import validated, weld
 from meshjig.output.files.threemf_looks import LooksOf3mf
 from meshjig.output.piece import Piece
-from meshjig.scan.three_mf import matrix_of, mesh_arrays, open_3mf, unit_of
+from meshjig.scan.files.three_mf import matrix_of, mesh_arrays, open_3mf, unit_of
 
 __all__ = ["read_3mf", "write_3mf"]
 

@@ -16,8 +16,8 @@ from meshjig.output.pictures.colours import to_linear, to_srgb
 from meshjig.output.piece import Piece
 from meshjig.output.scan_picture import Picture
 from meshjig.output.texture import Texture
-from meshjig.scan.attachments import PictureReader
-from meshjig.scan.gltf import read_gltf
+from meshjig.scan.files.attachments import PictureReader
+from meshjig.scan.files.gltf import read_gltf
 from tests.meshes import sphere, torus
 
 COLOURED = [

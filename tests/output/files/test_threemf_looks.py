@@ -7,8 +7,8 @@ from meshjig.output.files import threemf_looks
 from meshjig.output.files.threemf import write_3mf
 from meshjig.output.piece import Piece
 from meshjig.output.texture import Texture
-from meshjig.scan.attachments import PictureReader
-from meshjig.scan.three_mf import read_3mf_source
+from meshjig.scan.files.attachments import PictureReader
+from meshjig.scan.files.three_mf import read_3mf_source
 from tests.meshes import sphere
 from tests.output.files.test_glb import dressed
 

@@ -1,5 +1,0 @@
-"""glTF and GLB, as their standard has them."""
-
-from meshjig.scan.gltf.read import read_gltf
-
-__all__ = ["read_gltf"]
