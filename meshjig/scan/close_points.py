@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
 
-__all__ = ["close_pairs"]
+__all__ = ["are_distinct", "close_pairs"]
 
 _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)  # odd, without a pattern in their bits
 
@@ -37,6 +37,12 @@ def close_pairs(P: Floats, tolerance: float) -> Ints:
         return exact
     near = first[cKDTree(P[first]).query_pairs(tolerance, output_type="ndarray")]
     return np.concatenate([exact, near.reshape(-1, 2)])
+
+
+def are_distinct(P: Floats) -> bool:
+    """Tell whether surely no two of some points (n, 3) are one; False may also stand for a rare doubt."""
+    hashes = np.sort(_hashes(P + 0.0))
+    return bool((hashes[1:] != hashes[:-1]).all())
 
 
 def _hashes(P: Floats) -> NDArray[np.uint64]:

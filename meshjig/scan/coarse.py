@@ -33,7 +33,9 @@ def refuse_coarse(V: Floats, F: Ints, name: str) -> None:
     InputError
         The sentence says how coarse the numbers are, and what to do.
     """
-    used = V[np.unique(F)]
+    is_used = np.zeros(len(V), bool)
+    is_used[F] = True
+    used = V[is_used]
     low, high = used.min(0), used.max(0)
     far = np.maximum(np.abs(low), np.abs(high))
     extent = float((high - low).max())

@@ -9,6 +9,7 @@ import numpy as np
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import border_halfedges, edge_keys
 from meshjig.mesh.measure import area_vectors, sums, unit
+from meshjig.scan.close_points import are_distinct
 
 __all__ = ["Contacts", "draw_apart"]
 
@@ -40,10 +41,13 @@ def draw_apart(V: Floats, F: Ints, distance: float) -> Contacts:
     -------
     Contacts
     """
+    none = Contacts(V, 0, [])
+    if distance <= 0 or are_distinct(V):
+        return none
     place = _places(V)
     touching = _touching(F, place)
-    if distance <= 0 or not touching.any():
-        return Contacts(V, 0, [])
+    if not touching.any():
+        return none
     moved = V.copy()
     moved[touching] += _inward(V, F, touching, _walls(V, F, touching, place), distance / 2)
     return Contacts(moved, int(touching.sum()), V[touching][0].tolist())

@@ -37,8 +37,10 @@ def keep_largest(V: Floats, F: Ints, keep: Keep) -> Kept:
     -------
     Kept
     """
+    if keep == "all":
+        return Kept(V, F, 0, 0.0)
     n, component = components(F)
-    most = {"all": n, "largest": 1}[keep] if isinstance(keep, str) else keep
+    most = 1 if keep == "largest" else keep
     if n <= most:
         return Kept(V, F, 0, 0.0)
     area = sums(component, face_areas(V, F), n)

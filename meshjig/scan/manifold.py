@@ -37,8 +37,8 @@ def is_clean(F: Ints, n: int, e: Edges | None = None) -> bool:
     h = np.flatnonzero(e.twin > np.arange(len(e.twin)))
     if (F.ravel()[h] == F.ravel()[e.twin[h]]).any():
         return False
-    _, origin = _fans(F, e.twin)
-    return bool(np.array_equal(origin, np.arange(n)))
+    n_fans = np.bincount(fans(F, e.twin)[1], minlength=n)
+    return bool(len(n_fans) == n and (n_fans == 1).all())
 
 
 def make_manifold(V: Floats, F: Ints) -> ManifoldMesh:

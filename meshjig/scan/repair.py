@@ -80,8 +80,8 @@ def repair(V: Floats, F: Ints, *, cavities: bool = False) -> Repaired:
         No faces are left, the mesh is a heap of loose crumbs, or the surface has one side only.
     """
     n_given, given = len(V), (V, F)
-    diagonal = float(np.linalg.norm(np.ptp(V[F].reshape(-1, 3), axis=0)))
     V, F = _used(V, F)
+    diagonal = float(np.linalg.norm(np.ptp(V, axis=0)))
     unused = n_given - len(V)
     V, F, merged = weld(V, F, _WELD * diagonal)
     F, null, duplicate = drop_doubles(F)
