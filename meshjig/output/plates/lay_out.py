@@ -114,9 +114,10 @@ def lay_out(
 
 
 def _poses(piece: Piece) -> Iterator[Pose]:
-    """Give poses in which a piece may lie: the best one, and those along the axes should it not fit."""
+    """Give poses in which a piece may lie; a block of a core also along the axes, should it not fit."""
     yield lying_pose(piece.V, piece.F, piece.outer_normal)
-    yield from axis_poses(piece.V, piece.F, piece.outer_normal)
+    if piece.name.startswith("core_"):
+        yield from axis_poses(piece.V, piece.F)
 
 
 def _on_ground(V: Floats) -> Floats:

@@ -78,10 +78,12 @@ def lying_pose(V: Floats, F: Ints, outer_normal: Floats | None = None) -> Pose:
     return Pose(_turn(down[best]), float(height[best]), extent, float(overhang[best]), outer_up)
 
 
-def axis_poses(V: Floats, F: Ints, outer_normal: Floats | None = None) -> list[Pose]:
+def axis_poses(V: Floats, F: Ints) -> list[Pose]:
     """Give the six poses along the axes, the best first: for what fits a plate in no pose that is stable.
 
-    Parameters are those of `lying_pose`.
+    Parameters
+    ----------
+    V, F : (n, 3) float64, mm, and (m, 3) int64, closed and oriented outward
     """
     down = np.concatenate([np.eye(3), -np.eye(3)])
     N = area_vectors(V, F) / 2
@@ -89,15 +91,8 @@ def axis_poses(V: Floats, F: Ints, outer_normal: Floats | None = None) -> list[P
     depth = V @ down.T
     height, extent = np.ptp(depth, axis=0), _extent(V)
     overhang = _overhang(V, F, area, N @ down.T, down, depth.max(axis=0)) / area.sum()
-    up = None if outer_normal is None or not outer_normal.any() else -down @ unit(outer_normal)
     return [
-        Pose(
-            _turn(down[k]),
-            float(height[k]),
-            extent,
-            float(overhang[k]),
-            None if up is None else bool(up[k] > 0),
-        )
+        Pose(_turn(down[k]), float(height[k]), extent, float(overhang[k]), None)
         for k in np.argsort(overhang + height / extent, kind="stable").tolist()
     ]
 

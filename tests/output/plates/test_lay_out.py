@@ -6,7 +6,7 @@ from meshjig.output.plates.printers import Plate
 from tests.meshes import creased_box
 
 BOX = creased_box(48)  # 100 mm
-TALL = Piece("tall", BOX.V * [1.0, 1.0, 1.5], BOX.F, (0.5, 0.5, 0.5))
+TALL = Piece("core_1", BOX.V * [1.0, 1.0, 1.5], BOX.F, (0.5, 0.5, 0.5))
 
 
 def test_a_block_stands_where_it_fits_no_other_way():
