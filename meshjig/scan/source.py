@@ -20,7 +20,7 @@ class Unit(NamedTuple):
     """What a file says of its unit."""
 
     mm: float
-    name: str  # "metre"
+    name: str  # "m"
     binding: bool  # whether it holds whatever the model's extent; else only where that is plausible
 
 

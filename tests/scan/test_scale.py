@@ -44,7 +44,7 @@ def test_the_largest_extent_follows_the_rule_that_is_named(extent, size, result,
     assert rule in scaled.facts.units
 
 
-METRE, MILLIMETRE = Unit(1000.0, "metre", False), Unit(1.0, "mm", True)
+METRE, MILLIMETRE = Unit(1000.0, "m", False), Unit(1.0, "mm", True)
 INCH = Unit(25.4, "inch", True)
 
 
@@ -53,8 +53,8 @@ INCH = Unit(25.4, "inch", True)
     [
         (600.0, None, "auto", MILLIMETRE, 600.0, "600 mm, as the file says"),
         (0.5, None, "auto", INCH, 12.7, "0.5 inch, as the file says"),
-        (0.2, None, "auto", METRE, 200.0, "0.2 metre, as the file says"),
-        (100.0, None, "auto", METRE, 150.0, "100 metre, as the file says, is unlikely: scaled to 150 mm"),
+        (0.2, None, "auto", METRE, 200.0, "0.2 m, as the file says"),
+        (100.0, None, "auto", METRE, 150.0, "100 m, as the file says, is unlikely: scaled to 150 mm"),
         (100.0, None, "m", METRE, 1e5, "100 m as asked"),
         (3.0, None, "inch", None, 76.2, "3 inch as asked"),
         (3.0, None, "cm", MILLIMETRE, 30.0, "3 cm as asked"),

@@ -22,7 +22,7 @@ from meshjig.scan.source import Look, Source, Unit
 
 __all__ = ["read_gltf"]
 
-_METRE = Unit(1000.0, "metre", binding=False)  # many programs write whatever they have
+_METRE = Unit(1000.0, "m", binding=False)  # many programs write whatever they have
 _FEW_FACES = 2_000_000  # so many may be placed, whatever the file's size
 _FACES_A_BYTE = 5
 _A_FACE = 400.0, 5e-6  # bytes and s that placing takes

@@ -32,11 +32,11 @@ _A_FACE = 300.0, 5e-6  # bytes and s that reading takes
 
 _UNITS = (  # by lib3mf's number
     Unit(0.001, "micron", binding=True),
-    Unit(1.0, "millimetre", binding=True),
-    Unit(10.0, "centimetre", binding=True),
+    Unit(1.0, "mm", binding=True),
+    Unit(10.0, "cm", binding=True),
     Unit(25.4, "inch", binding=True),
     Unit(304.8, "foot", binding=True),
-    Unit(1000.0, "metre", binding=True),
+    Unit(1000.0, "m", binding=True),
 )
 
 
