@@ -5,6 +5,7 @@ import time
 import pytest
 
 from meshjig.errors import OptionError
+from meshjig.runtime.bounded import Limits
 from meshjig.tiling.svg.user_unit import user_unit
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
@@ -18,7 +19,8 @@ def doubled(times):
     return f'{HEAD}viewBox="0 0 100 100"><defs>{square}{groups}</defs>{use.format(times)}</svg>'
 
 
-def test_copies_doubled_without_end_are_refused_in_one_sentence(tmp_path):
+def test_copies_doubled_without_end_are_refused_in_one_sentence(tmp_path, monkeypatch):
+    monkeypatch.setattr("meshjig.tiling.svg.read_paths._LIMITS", Limits(memory=400e6, seconds=1.0))
     path = tmp_path / "ub.svg"
     path.write_text(doubled(30))
     began = time.monotonic()
