@@ -71,7 +71,7 @@ def test_core_fills_what_the_pieces_leave(name):
     assert volume(*parts[0]) == pytest.approx(room, rel=0.03)
 
 
-@pytest.mark.parametrize(("name", "drains"), [("sphere", 1), ("box", 1), ("holes", 1)])
+@pytest.mark.parametrize(("name", "drains"), [("sphere", 1), ("box", 1), ("holes", 1), ("bowl", 1)])
 def test_hollow_core_has_its_wall_and_a_drain(name, drains):
     _, _, solid, _ = core_of(SHAPES[name], wall=0.0)
     _, _, hollow, facts = core_of(SHAPES[name])

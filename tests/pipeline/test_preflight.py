@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from meshjig.errors import OptionError
+from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.pipeline.preflight import refuse_too_small_pieces
+from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_too_small_pieces
+from tests.meshes import sphere
 
 
 def advice(size, area, **asked):
@@ -44,3 +46,11 @@ def test_nothing_is_advised_that_is_nothing():
         assert said
         assert "at most 0" not in said
     assert advice(0.1, 0.01, clearance=5.0) == "use a larger --size"
+
+
+@pytest.mark.parametrize(("least", "advised"), [(1.0, "a smaller --min-piece than 1"), (0.25, "more pieces")])
+def test_a_single_hollow_piece_is_refused_with_what_made_it_one(least, advised):
+    mesh = Mesh(*sphere(300))
+    with pytest.raises(OptionError, match="a single hollow piece") as error:
+        refuse_hollow_piece(mesh, np.zeros(len(mesh.F), np.int64), Options.of(min_piece=least))
+    assert advised in error.value.hint

@@ -269,3 +269,24 @@ def test_where_a_disk_is_mounted_nothing_is_put(tmp_path, monkeypatch):
         replace_folder(tmp_path / "disk"),
     ):
         pytest.fail("the block must not run")
+
+
+@pytest.mark.parametrize("length", [200, 245, 255])
+def test_a_long_name_is_taken(tmp_path, length):
+    """A scratch folder beside the target, with a longer name than its own, once failed at the end."""
+    target = tmp_path / ("n" * length)
+    write_and(target)
+    assert [path.name for path in tmp_path.iterdir()] == [target.name]
+
+
+@pytest.mark.parametrize("length", [256, 4000])
+def test_a_name_too_long_is_refused_before_the_work(tmp_path, length):
+    with pytest.raises(OutputError, match="-o"), replace_folder(tmp_path / ("n" * length)):
+        pytest.fail("the block must not run")
+
+
+@pytest.mark.xfail(strict=True, reason="the lock of the folder that could not be made stays behind")
+def test_a_name_too_long_leaves_nothing_behind(tmp_path):
+    with pytest.raises(OutputError), replace_folder(tmp_path / ("n" * 256)):
+        pytest.fail("the block must not run")
+    assert not list(tmp_path.iterdir())
