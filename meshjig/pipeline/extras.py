@@ -17,6 +17,7 @@ from meshjig.output.piece import Piece
 from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import parse_plate
 from meshjig.solid import Shell
+from meshjig.solid.keep_clear import keep_clear
 from meshjig.solid.printable import all_printable
 
 __all__ = ["Core", "build_core", "engrave_pieces", "verify_core"]
@@ -98,9 +99,27 @@ def build_core(surface: Mesh, sheets: Shell, options: Options, up: Floats) -> Co
 
 
 def verify_core(core: Core | None, pieces: Pieces, options: Options, exempt: Sequence[str]) -> Core | None:
-    """Judge a core, where there is one, beside the pieces of its puzzle."""
+    """Judge a core, where there is one, beside the pieces; it yields where they are too near."""
     if core is None:
         return None
+    core = _judged(core, pieces, options, exempt)
+    broken = {name for promise in ("gap_mm", "overlap_mm3") for name in core.failures.get(promise, ())}
+    if not broken:
+        return core
+    solid = dict(zip(pieces.names, pieces.solids, strict=True))
+    beside = [solid[name] for name in pieces.names if name in broken]
+    kept = [
+        keep_clear(Mesh(part.V, part.F), beside, options.clearance) if part.name in broken else part
+        for part in core.parts
+    ]
+    parts = all_printable([(part.V, part.F) for part in kept])
+    core = replace(
+        core, parts=[replace(old, V=V, F=F) for old, (V, F) in zip(core.parts, parts, strict=True)]
+    )
+    return _judged(core, pieces, options, exempt)
+
+
+def _judged(core: Core, pieces: Pieces, options: Options, exempt: Sequence[str]) -> Core:
     checks, failures = judge_core(
         [(part.name, part.V, part.F) for part in core.parts],
         pieces,

@@ -106,7 +106,7 @@ def _walls(V: Floats, F: Ints, thickness: float, side: Side, join: Join) -> list
 
 
 def _advised(V: Floats, F: Ints, thickness: float, side: Side, join: Join, error: TooThick) -> SolidError:
-    """Say which thickness does, after trying it: some models have no room for any."""
+    """Say which thickness does, after trying it: some models have no room for any that is tried."""
     share, largest = 0.5 if side == "both" else 1.0, error.largest
     says = f"walls of {thickness:g} mm are too thick for this model"
     for _ in range(_TRIES):
@@ -122,6 +122,7 @@ def _advised(V: Floats, F: Ints, thickness: float, side: Side, join: Join, error
         except TooThick as again:
             largest = again.largest
     return SolidError(
-        f"{says}, and so are thinner ones: most of it is thinner than walls can be, or touches itself",
-        hint="give it another shape in a mesh editor, such as MeshLab",
+        f"{says}, and no thinner ones were found that surely work: most of it is thinner than walls can be,"
+        " or touches itself",
+        hint="make it larger (--size), or give it another shape in a mesh editor, such as MeshLab",
     )

@@ -38,7 +38,6 @@ def test_what_is_advised_makes_a_sound_puzzle():
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="walls of 1 mm work here, yet thinner ones are said to be too thick")
 def test_thinner_walls_are_not_called_too_thick_where_they_work():
     assert make_puzzle(star(5), pieces=20, thickness=1.0).report["ok"]
     assert "so are thinner ones" not in refused(5, 6.0)

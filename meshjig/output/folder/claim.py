@@ -61,8 +61,13 @@ class Claim:
                 hint="wait until it has ended, or choose another folder with -o",
             )
         self._file = file
-        self.in_place = self._recover()  # what a run that was killed had put there
-        self._note(*(["parent", str(parent)] for parent in [*self._parents, *made]))
+        try:
+            self.in_place = self._recover()  # what a run that was killed had put there
+            self._note(*(["parent", str(parent)] for parent in [*self._parents, *made]))
+        except BaseException:
+            release(self._lock, self._file)
+            _remove_empty(made)
+            raise
 
     def new_folder(self) -> Path:
         """Make a hidden folder beside the target."""
@@ -119,9 +124,11 @@ class Claim:
 
     def release(self) -> None:
         """Clear up, and give the right back."""
-        self._recover()
-        release(self._lock, self._file)
-        _remove_empty(self._parents)
+        try:
+            self._recover()
+        finally:
+            release(self._lock, self._file)
+            _remove_empty(self._parents)
 
     def _recover(self) -> bool:
         """Finish, or take back, what the journal says was begun; tell whether the new folder is in place."""
