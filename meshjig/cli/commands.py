@@ -14,7 +14,7 @@ from meshjig.cli.endings import BROKEN_PROMISE, EPILOG, Ending, broken_promises
 from meshjig.cli.flags import Flags, takes_options
 from meshjig.cli.lines import as_lines
 from meshjig.cli.streams import emit, say, set_verbosity
-from meshjig.cli.terminal import progress_bar, tell_next_step, tell_notes
+from meshjig.cli.terminal import progress_bar, tell_each, tell_next_step, tell_notes
 from meshjig.errors import OptionError
 from meshjig.options import Options
 from meshjig.runtime.bounded import ReadAhead
@@ -87,7 +87,10 @@ def make(
         from meshjig.pipeline.plan import plan_puzzle
 
         plan = plan_puzzle(mesh, options)
+        notes = plan["notes"] if as_json else plan.pop("notes")
         emit(json.dumps(plan, indent=2) if as_json else as_lines(plan))
+        if not quiet:
+            tell_each(notes)
         raise typer.Exit
     from meshjig.output.folder import reserve_folder
     from meshjig.output.report import report_file

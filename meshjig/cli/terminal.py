@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from meshjig.cli.streams import error_stream, say
 from meshjig.runtime.messages import tell
 
-__all__ = ["progress_bar", "tell_next_step", "tell_notes"]
+__all__ = ["progress_bar", "tell_each", "tell_next_step", "tell_notes"]
 
 FEW = 4  # names that a note gives
 
@@ -61,13 +61,18 @@ def tell_next_step(report: Mapping[str, Any], target: Path) -> None:
     say(f"next: {look}; {what}{guide}")
 
 
+def tell_each(notes: Iterable[str]) -> None:
+    """Say notes, a line each."""
+    for note in notes:
+        say(f"meshjig: note: {note}")
+
+
 def tell_notes(report: Mapping[str, Any]) -> None:
     """Say what is no broken promise, but what a maker should know."""
     made, options = len(report["pieces"]), report["options"]
     if options["piece_size"] is None and abs(made - options["pieces"]) > 0.1 * options["pieces"]:
         say(f"meshjig: note: {options['pieces']} pieces were asked for, {made} fit this model")
-    for note in [*report["input"]["notes"], *report.get("notes", [])]:
-        say(f"meshjig: note: {note}")
+    tell_each([*report["input"]["notes"], *report.get("notes", [])])
     limbs = report.get("cells", {}).get("thin_limbs", [])
     for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])

@@ -78,7 +78,7 @@ def make_puzzle(
     stages = Stages(progress)
     with stages("scan"):
         scan = clean_scan(mesh, options)
-        up = pictures.up = up_direction(options.up, scan.source, scan.mesh)
+        up = pictures.up = up_direction(options.up, scan)
         surface, longest = work_mesh(scan.mesh, options)
     small = len(surface.F) < SOLIDS_WORTH_A_CHILD
     beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)

@@ -61,7 +61,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     else:
         work_atlas(scan, surface, longest, options)
     sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
-    core = build_core(surface, sheets, options, up_direction(options.up, scan.source, scan.mesh))
+    core = build_core(surface, sheets, options, up_direction(options.up, scan))
     size = float(np.sqrt(area / n))
     bulk = bulk_of_surface(area, _wall(surface, sheets), size).plus(bulk_of(core.parts if core else []))
     plate = parse_plate(options.plate or COMMON_PLATE)
@@ -80,8 +80,9 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "clearance_mm": options.clearance,
         **facts,
         "plate": str(plate),
-        "plates": estimate_plates(n, area, plate, GAP) + (core.facts.parts if core else 0),
+        "plates": min(estimate_plates(n, area, plate, GAP), n) + (core.facts.parts if core else 0),
         "material": material_of(bulk, options.process),
+        "notes": scan.facts.notes,
     }
 
 

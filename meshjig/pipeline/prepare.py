@@ -18,7 +18,7 @@ from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
 from meshjig.pipeline.report import meshjig_version
-from meshjig.pipeline.up import up_axis
+from meshjig.pipeline.up import AUTO, up_axis
 from meshjig.scan import Floor, Preparation, Scan, read_scan
 from meshjig.scan.fill import fill_holes
 from meshjig.scan.notes import open_borders_note
@@ -107,6 +107,10 @@ def clean_scan(mesh: Any, options: Options) -> Scan:
     size = " x ".join(f"{x:.4g}" for x in scan.facts.size_mm)
     told.info(f"size: {size} mm; {scan.facts.units}")
     notes = [*scan.facts.notes, *open_borders_note(filled.facts)]
+    if scan.facts.floor and options.up == AUTO and scan.source.up is None:
+        notes.append(
+            "neither the file nor --up says which way is up: z was taken, along which it was cut off"
+        )
     facts = replace(scan.facts, filled_holes=filled.facts, notes=notes)
     return replace(scan, mesh=Mesh(filled.V, filled.F), facts=facts)
 

@@ -5,44 +5,46 @@ from __future__ import annotations
 import numpy as np
 
 from meshjig.mesh.arrays import Floats
-from meshjig.mesh.mesh import Mesh
 from meshjig.output.pictures.view import axis_of, guess_up
+from meshjig.scan import Scan
 from meshjig.scan.source import Source
 
-__all__ = ["up_axis", "up_direction"]
+__all__ = ["AUTO", "up_axis", "up_direction"]
 
 AUTO = "auto"
 
 
 def up_axis(up: str, source: Source) -> int:
-    """Give the axis of a model that points upward.
+    """Give the axis of a model along which a floor is cut off.
 
     Parameters
     ----------
     up : str
-        x, y or z; or ``auto``: what the file says, else the axis nearest to `guess_up`.
+        x, y or z; or ``auto``: what the file says, else z; a guess by the shape is for pictures only.
     source : Source
 
     Returns
     -------
     int, 0, 1 or 2
     """
-    return int(np.abs(up_direction(up, source, Mesh(source.vertices, source.faces))).argmax())
+    said = source.up if up == AUTO else up
+    return int(np.abs(axis_of(said)).argmax()) if said else 2
 
 
-def up_direction(up: str, source: Source, surface: Mesh) -> Floats:
+def up_direction(up: str, scan: Scan) -> Floats:
     """Give the direction in which a model is up, as pictures show it.
 
     Parameters
     ----------
     up : str
-        As for `up_axis`; but a guess may lie between the axes, where the model's base is tilted.
-    source : Source
-    surface : Mesh, of the model; turned as the source is
+        x, y or z; or ``auto``: the axis along which a floor was cut off, else what the file says, else as
+        `guess_up` has it, perhaps between the axes.
+    scan : Scan
 
     Returns
     -------
     (3,) float64, a unit vector
     """
-    said = source.up if up == AUTO else up
-    return (axis_of(said) if said else guess_up(surface.V, surface.F)) + 0.0  # no -0 in the report
+    floor = scan.facts.floor
+    said = (floor.axis if floor else scan.source.up) if up == AUTO else up
+    return (axis_of(said) if said else guess_up(*scan.mesh)) + 0.0  # no -0 in the report

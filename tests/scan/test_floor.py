@@ -4,13 +4,16 @@ from functools import partial
 
 import numpy as np
 import pytest
+import trimesh
 
 from meshjig.errors import InputError
 from meshjig.mesh.boundary_loops import border_loops
 from meshjig.mesh.measure import mesh_volume
+from meshjig.mesh.mesh import Mesh
 from meshjig.scan import read_scan
 from meshjig.scan.floor import cut_floor
 from meshjig.scan.manifold import is_clean
+from meshjig.scan.plane_cut import cut_level
 from meshjig.scan.preparation import Floor, Preparation
 from tests.meshes import closed_cylinder, genus2, half_sphere, joined, moved, open_cup, sphere, torus
 
@@ -94,3 +97,28 @@ def test_the_largest_parts_are_kept_and_the_others_are_counted():
         "of 3 connected parts the largest is kept: 2 with 12.2% of the area are left out"
     ]
     assert "the largest 2 are kept: 1 with 2.4% of the area is left out" in found[2].facts.notes[0]
+
+
+@pytest.mark.parametrize("height", [10.0, 20.0, 40.0, 10.01, 11.0, 19.99])
+def test_a_plane_through_rows_of_vertices_leaves_no_needles(height):
+    box = trimesh.creation.box([100, 100, 80]).subdivide().subdivide().subdivide()
+    V, F = np.asarray(box.vertices), np.asarray(box.faces)
+    cut = cut_floor(V, F, 2, float(V[:, 2].min()) + height)
+    mesh = Mesh(cut.V, cut.F)
+    assert is_clean(cut.F, len(cut.V))
+    assert not len(mesh.borders)
+    assert mesh_volume(cut.V, cut.F) == pytest.approx(1e4 * (80 - height), rel=1e-3)
+    corners = cut.V[cut.F[: len(F) // 4]]  # those of the model; a lid is flat, whatever its triangles
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    high = 2 * mesh.areas[: len(corners)] / sides.max(axis=1)
+    assert (high / sides.max(axis=1)).min() > 0.02
+
+
+def test_where_the_cut_touches_itself_there_are_two_borders():
+    V = np.array([[x, y, 0.0] for x in (-1, 0, 1) for y in (-1, 0, 1)]) * 10
+    V[:, 2] = [8, -8, 8, 0, 0, 0, 8, -8, 8]  # a saddle: its middle lies on the plane
+    quads = [(0, 3, 4, 1), (1, 4, 5, 2), (3, 6, 7, 4), (4, 7, 8, 5)]
+    F = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+    cut = cut_level(V, F, 2, 0.0)
+    assert is_clean(cut.F, len(cut.V))
+    assert (cut.V[:, 2] >= 0).all()
