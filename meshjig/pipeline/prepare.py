@@ -111,6 +111,11 @@ def clean_scan(mesh: Any, options: Options) -> Scan:
         notes.append(
             "neither the file nor --up says which way is up: z was taken, along which it was cut off"
         )
+    if options.core and scan.facts.components > 1:
+        notes.append(
+            f"the core is made for the largest of {scan.facts.components} bodies only: make the others alone"
+            " where they are to have one"
+        )
     facts = replace(scan.facts, filled_holes=filled.facts, notes=notes)
     return replace(scan, mesh=Mesh(filled.V, filled.F), facts=facts)
 

@@ -179,7 +179,8 @@ def _json_value(data: bytes, chance: random.Random) -> bytes:
 
 def _json_drop(data: bytes, chance: random.Random) -> bytes:
     def drop(places):
-        holder, key = chance.choice(places)
+        fitting = [(h, k) for h, k in places if k != "indices"]  # sound without, but another mesh
+        holder, key = chance.choice(fitting)
         del holder[key]
 
     return _with_json(data, drop)

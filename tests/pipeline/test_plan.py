@@ -6,7 +6,7 @@ from meshjig import make_puzzle
 from meshjig.errors import OptionError, SolidError
 from meshjig.options import Options
 from meshjig.pipeline.plan import plan_puzzle
-from tests.meshes import disc, sphere
+from tests.meshes import disc, joined, moved, sphere
 
 ASKED = {"pieces": 24, "size": 100, "plate": "120x120"}
 
@@ -52,3 +52,16 @@ def test_what_has_no_room_is_refused():
         plan_puzzle(sphere(2000), Options.of(thickness=50))
     with pytest.raises(SolidError, match="core"):
         plan_puzzle(disc(400), Options.of(pieces=8, core=True))
+
+
+def test_a_plan_tells_the_notes_of_the_scan_and_that_one_body_has_the_core():
+    two = joined(sphere(800), moved(sphere(800, 30.0), [100.0, 0.0, 0.0]))
+    plan = plan_puzzle(tuple(two), Options.of(pieces=8, core=True))
+    assert any("core is made for the largest of 2 bodies" in note for note in plan["notes"])
+    assert not plan_puzzle(tuple(two), Options.of(pieces=8))["notes"]
+
+
+def test_there_are_no_more_plates_than_pieces():
+    V, F = sphere(800)
+    plan = plan_puzzle((V, F), Options.of(pieces=12, size=300.0, plate="150x150"))
+    assert plan["plates"] <= plan["pieces"]
