@@ -94,3 +94,9 @@ def test_the_largest_parts_are_kept_and_the_others_are_counted():
         "of 3 connected parts the largest is kept: 2 with 12.2% of the area are left out"
     ]
     assert "the largest 2 are kept: 1 with 2.4% of the area is left out" in found[2].facts.notes[0]
+
+
+@pytest.mark.parametrize(("maker", "words"), [(sphere, "1 outline"), (torus, "2 outlines")])
+def test_outlines_of_a_cut_are_counted_in_words(maker, words):
+    scan = read_scan(maker(1000), preparation=Preparation(floor=Floor(5.0, z)))
+    assert f"a plane closes the cut ({words})" in scan.facts.notes[0]
