@@ -31,7 +31,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, GLB or 3MF file")]
+MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, glTF, GLB or 3MF file")]
 Config = Annotated[
     Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import tomllib
 from collections.abc import Mapping
@@ -89,7 +90,12 @@ def parse_toml(name: str) -> Flags:
     if not path.is_file():
         raise OptionError(f"--config: {path} is no file")
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        data = path.read_bytes()
+        if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in data[:2]:
+            raise OptionError(f"--config: {path} is in UTF-16", hint="save it as UTF-8, which TOML asks for")
+        return tomllib.loads(data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n"))
+    except OptionError:
+        raise
     except OSError as error:
         raise OptionError(f"--config: {path} can't be read ({error.strerror})") from None
     except RecursionError:

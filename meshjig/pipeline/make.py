@@ -24,7 +24,7 @@ from meshjig.pipeline.bodies import note_contacts
 from meshjig.pipeline.cells_or_advice import cells_or_advice
 from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
-from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_unknown_names
+from meshjig.pipeline.preflight import checked_options, refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 from meshjig.pipeline.report import Made, assemble_report
 from meshjig.pipeline.up import up_direction
@@ -72,7 +72,7 @@ def make_puzzle(
     MeshjigError
         One of its children; the sentence says what is wrong, where, and what to do.
     """
-    options = options or Options.of(**keywords)
+    options = checked_options(options, keywords)
     refuse_unknown_names(options)
     pictures = StagePictures(debug_dir)
     stages = Stages(progress)

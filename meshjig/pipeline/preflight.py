@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -11,17 +12,41 @@ from meshjig.errors import OptionError
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.types import Ints, Mesh
-from meshjig.options import Options
+from meshjig.options import OptionKeywords, Options
 from meshjig.output.plates.lay_out import GAP
 from meshjig.output.plates.printers import parse_plate
 from meshjig.tiling.registry import get_family
 from meshjig.tiling.unit import edge_ends
 
-__all__ = ["refuse_hollow_piece", "refuse_small_plate", "refuse_too_small_pieces", "refuse_unknown_names"]
+__all__ = [
+    "checked_options",
+    "refuse_hollow_piece",
+    "refuse_small_plate",
+    "refuse_too_small_pieces",
+    "refuse_unknown_names",
+]
 
 FEWEST = 2  # pieces that a puzzle can have
 NARROWEST = 0.5  # of a piece's size: pieces as narrow as that are rare
 CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
+
+
+def checked_options(options: Any, keywords: OptionKeywords) -> Options:
+    """Give the options of a call: those that are given as such, else those of its keywords.
+
+    Raises
+    ------
+    OptionError
+        They are no Options, or a keyword is unknown or out of range.
+    """
+    if options is None:
+        return Options.of(**keywords)
+    if not isinstance(options, Options):
+        raise OptionError(
+            f"options: a {type(options).__name__} is no Options",
+            hint="make them with Options.of(pieces=30), or give keywords in place of options",
+        )
+    return options
 
 
 def refuse_too_small_pieces(size: float, area: float, options: Options) -> None:

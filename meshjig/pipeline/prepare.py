@@ -17,6 +17,7 @@ from meshjig.mesh.types import Bools, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
+from meshjig.pipeline.preflight import checked_options
 from meshjig.pipeline.report import meshjig_version
 from meshjig.pipeline.up import AUTO, up_axis
 from meshjig.scan import Floor, Preparation, Scan, read_scan
@@ -53,7 +54,7 @@ def atlas(mesh: Any, *, options: Options | None = None, **keywords: Unpack[Optio
     MeshjigError
         One of its children; the sentence says what is wrong, where, and what to do.
     """
-    options = options or Options.of(**keywords)
+    options = checked_options(options, keywords)
     return chart(clean_scan(mesh, options), options)
 
 

@@ -22,7 +22,7 @@ from meshjig.scan.preparation import Preparation
 from meshjig.scan.repair import Repairs, repair
 from meshjig.scan.resurface import ResurfaceFacts, resurfacing_cell
 from meshjig.scan.resurface import resurface as rebuild
-from meshjig.scan.scale import decimate
+from meshjig.scan.scale import decimate, refuse_size
 from meshjig.scan.sized import to_size
 from meshjig.scan.source import Source
 
@@ -99,9 +99,12 @@ def read_scan(
     ------
     InputError
         The mesh can't be read, or is no surface; the sentence says why.
+    OptionError
+        The size is no length.
     ResourceError
         It would take more memory than allowed.
     """
+    refuse_size(size)
     preparation = preparation or Preparation()
     foretell(source, preparation.memory)
     loaded = load(source)

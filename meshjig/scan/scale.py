@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from meshjig.errors import InputError
+from meshjig.errors import InputError, OptionError
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.halfedges import compact
 from meshjig.scan.collapse import collapse_fast
@@ -23,6 +25,7 @@ __all__ = [
     "decimate",
     "import_pymeshlab",
     "in_millimetres",
+    "refuse_size",
     "to_millimetres",
 ]
 
@@ -32,6 +35,7 @@ UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4}  # in mm
 _PLAUSIBLE = (20.0, 500.0)  # mm; a model of such extent was most likely made in mm
 _DEFAULT = 150.0  # mm
 _FLOAT32 = 1e-6  # a model of 500 mm may come back from a file with 500.00002
+_SHOWN = 40  # letters of a wrong value in a sentence
 _FINE = 500_000  # faces; meshes of more are thinned out first, which takes a tenth of the time
 _THINNED = 1.5  # times as many faces as asked for are left then
 _SHARE = 1.5  # at least so many times that are there before: else it is not worth it
@@ -82,8 +86,35 @@ def to_millimetres(
     Returns
     -------
     Scaled
+
+    Raises
+    ------
+    OptionError
+        The size is no length.
     """
+    refuse_size(size)
     return in_millimetres(V, *choose_scale(V, size, unit, said))
+
+
+def refuse_size(size: Any) -> None:
+    """Refuse what is neither None nor a length in mm.
+
+    Raises
+    ------
+    OptionError
+        It is no number, or not a finite one above 0.
+    """
+    if size is None:
+        return
+    shown = repr(size) if len(repr(size)) < _SHOWN else f"a {type(size).__name__}"
+    if isinstance(size, bool | np.bool_) or not isinstance(size, Real):
+        raise OptionError(f"size: {shown} is no number", hint="give the largest extent, in mm", option="size")
+    try:
+        length = float(size)
+    except OverflowError:
+        length = math.inf
+    if not 0 < length < math.inf:
+        raise OptionError(f"size: {shown} is no length", hint="give more than 0 mm", option="size")
 
 
 def choose_scale(

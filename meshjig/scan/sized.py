@@ -91,6 +91,10 @@ def _told(floor: FloorFacts, stays_open: bool) -> str:
     elif not floor.closed and not floor.left_open:
         rest = "nothing had to be closed"
     else:
-        rest = f"a plane closes the cut ({floor.closed} outlines)" if floor.closed else "the cut stays open"
-        rest += f", but not where the model is open ({floor.left_open} outlines)" * bool(floor.left_open)
+        rest = f"a plane closes the cut ({_outlines(floor.closed)})" if floor.closed else "the cut stays open"
+        rest += f", but not where the model is open ({_outlines(floor.left_open)})" * bool(floor.left_open)
     return f"cut off below {floor.above_lowest_mm:.4g} mm above the lowest point along {floor.axis}; {rest}"
+
+
+def _outlines(n: int) -> str:
+    return f"{n} outline{'s' * (n != 1)}"

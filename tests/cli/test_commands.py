@@ -287,3 +287,9 @@ def test_the_size_and_why_is_said_unless_it_is_to_be_quiet(tmp_path):
     said = run("make", mesh, "--dry-run", "--unit", "inch").stderr
     assert re.fullmatch(r"size: \S+ x \S+ x \S+ mm; largest extent \S+ inch as asked\n", said)
     assert run("make", mesh, "--dry-run", "--unit", "inch", "-q").stderr == ""
+
+
+@pytest.mark.parametrize("command", ["make", "info"])
+def test_help_names_every_format_of_a_mesh(command):
+    said = " ".join(run(command, "--help").stdout.split())
+    assert "STL, OBJ, PLY, OFF, glTF, GLB or 3MF file" in said

@@ -38,6 +38,22 @@ def test_a_bad_file_ends_in_a_sentence(tmp_path, text, words):
     assert "shop.toml" in said
 
 
+@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig"])
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_a_byte_order_mark_is_passed_over(tmp_path, coding, end):
+    (tmp_path / "shop.toml").write_bytes(f"# größer{end}pieces = 30{end}".encode(coding))
+    assert read_options(tmp_path / "shop.toml", {}).pieces == 30
+
+
+@pytest.mark.parametrize("coding", ["utf-16", "utf-16-le", "utf-16-be"])
+def test_utf_16_is_refused_in_a_sentence(tmp_path, coding):
+    file = tmp_path / "shop.toml"
+    file.write_bytes("pieces = 30\n".encode(coding))
+    with pytest.raises(OptionError) as error:
+        read_options(file, {})
+    assert str(error.value) == f"--config: {file} is in UTF-16: save it as UTF-8, which TOML asks for"
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with a name here")
 def test_a_pipe_is_no_file(tmp_path):
     os.mkfifo(tmp_path / "pipe.toml")

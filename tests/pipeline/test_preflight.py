@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+import meshjig
 from meshjig.errors import OptionError
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
@@ -54,3 +55,10 @@ def test_a_single_hollow_piece_is_refused_with_what_made_it_one(least, advised):
     with pytest.raises(OptionError, match="a single hollow piece") as error:
         refuse_hollow_piece(mesh, np.zeros(len(mesh.F), np.int64), Options.of(min_piece=least))
     assert advised in error.value.hint
+
+
+@pytest.mark.parametrize("call", [meshjig.make_puzzle, meshjig.atlas])
+@pytest.mark.parametrize("options", [{}, {"pieces": 30}, "sla"])
+def test_options_of_another_type_are_refused(call, options):
+    with pytest.raises(OptionError, match=r"^options: a (dict|str) is no Options: make them with"):
+        call(tuple(sphere(100)), options=options)

@@ -122,3 +122,9 @@ def test_where_the_cut_touches_itself_there_are_two_borders():
     cut = cut_level(V, F, 2, 0.0)
     assert is_clean(cut.F, len(cut.V))
     assert (cut.V[:, 2] >= 0).all()
+
+
+@pytest.mark.parametrize(("maker", "words"), [(sphere, "1 outline"), (torus, "2 outlines")])
+def test_outlines_of_a_cut_are_counted_in_words(maker, words):
+    scan = read_scan(maker(1000), preparation=Preparation(floor=Floor(5.0, z)))
+    assert f"a plane closes the cut ({words})" in scan.facts.notes[0]

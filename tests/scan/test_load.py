@@ -215,3 +215,12 @@ def test_an_stl_of_two_bodies_gives_two_components(tmp_path):
     path = written(tmp_path, "stl", joined(sphere(300), moved(torus(300), [130, 0, 0])))
     facts = read_scan(path).facts
     assert (facts.components, facts.borders, facts.genus) == (2, 0, 1)
+
+
+def test_a_drawing_of_trimesh_is_no_surface():
+    drawing = trimesh.load_path(np.array([[0.0, 0], [1, 0], [1, 1], [0, 0]]))
+    with pytest.raises(InputError, match=r"^a Path2D is no surface: .*extrude"):
+        load(drawing)
+    flat = trimesh.load_path(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 0, 0]]))
+    with pytest.raises(InputError, match="points but no faces"):
+        load(flat)

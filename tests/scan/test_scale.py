@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from meshjig.errors import OptionError
 from meshjig.mesh.measure import mesh_volume
 from meshjig.scan import decimate, read_scan, to_millimetres
 from meshjig.scan.source import Unit
@@ -110,3 +111,17 @@ def test_a_mesh_within_its_resolution_is_left_alone(faces):
     scan = read_scan(mesh, faces=faces)
     np.testing.assert_array_equal(scan.mesh.F, mesh.F)
     assert scan.facts.decimated_from is None
+
+
+@pytest.mark.parametrize(
+    "size", [0, -1.0, np.nan, np.inf, 10**400, np.float64(-2), "150", "x" * 500, [150], True]
+)
+def test_a_size_that_is_no_length_is_refused(size):
+    for call in (
+        lambda: read_scan(tuple(sphere(100)), size=size),
+        lambda: to_millimetres(sphere(100).V, size),
+    ):
+        with pytest.raises(OptionError, match=r"^size: .* is no (number|length): give ") as error:
+            call()
+        assert error.value.option == "size"
+        assert len(str(error.value)) < 100

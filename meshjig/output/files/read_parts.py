@@ -1,4 +1,4 @@
-"""Read pieces back from one file that holds them all: meshjig's own OBJ, and GLB."""
+"""Read pieces back from one file that holds them all, meshjig's own OBJ and GLB, and from text STL."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from meshjig.output.files.glb import MODEL
 from meshjig.scan.files.attachments import PictureReader
 from meshjig.scan.files.formats import gltf_shortfall
 from meshjig.scan.files.reading import load_by_trimesh
+from meshjig.scan.files.stl import read_stl
 
-__all__ = ["NamedPiece", "is_own_obj", "read_glb", "read_own_obj"]
+__all__ = ["NamedPiece", "is_own_obj", "read_glb", "read_own_obj", "read_text_stl"]
 
 NamedPiece = tuple[str, Floats, Ints]  # V (n, 3), mm; F (m, 3)
 _MM = 1000.0  # glTF has metres as its unit
@@ -86,6 +87,23 @@ def read_glb(path: Path) -> list[NamedPiece]:
     if not arrays:
         raise InputError(f"{path} holds no meshes")
     return [_part(V, F, name, path) for name, V, F in arrays]
+
+
+def read_text_stl(path: Path) -> tuple[Floats, Ints]:
+    """Read a soup of corners, from an STL file of text in whatever coding.
+
+    Raises
+    ------
+    InputError
+        It is cut off, or damaged.
+    """
+    read = read_stl(path, PictureReader())
+    if read.found < read.announced:
+        raise InputError(
+            f"{path} is damaged: {read.announced - read.found} of its {read.announced} facets can't be read",
+            hint="export it again",
+        )
+    return read.source.vertices, read.source.faces
 
 
 def _part(V: Floats, F: Ints, name: str, path: Path) -> NamedPiece:

@@ -12,13 +12,14 @@ import numpy as np
 
 from meshjig.errors import InputError
 from meshjig.mesh.validated import validated, weld
-from meshjig.output.files.read_parts import NamedPiece, is_own_obj, read_glb, read_own_obj
+from meshjig.output.files.read_parts import NamedPiece, is_own_obj, read_glb, read_own_obj, read_text_stl
 from meshjig.output.files.threemf import read_3mf
 from meshjig.output.report import Report, read_report
 from meshjig.runtime.bounded import Bounded, OutOfBounds, allow_file
 from meshjig.scan.files.attachments import PictureReader
 from meshjig.scan.files.formats import ply_shortfall
 from meshjig.scan.files.reading import check_file, load_by_trimesh
+from meshjig.scan.files.stl import is_text_stl
 
 __all__ = ["PuzzleFiles", "read_core", "read_pieces", "read_puzzle_files"]
 
@@ -135,7 +136,7 @@ def _natural(path: Path) -> list[Any]:
 def _read_mesh(path: Path) -> NamedPiece:
     V, F = _binary_stl(path) if path.suffix.lower() == ".stl" else (None, None)
     if V is None:
-        V, F = _by_trimesh(path)
+        V, F = _by_reader(path)
     V, F = validated(V, F, str(path))
     return path.stem, *validated(*weld(V, F), str(path))
 
@@ -147,8 +148,7 @@ def _binary_stl(path: Path) -> tuple[Any, Any]:
         raise InputError(f"{path} is empty")
     n = int.from_bytes(data[80:84], "little") if len(data) >= 84 else 0
     wanted = 84 + n * _FACET.itemsize
-    is_text = data[:5].lower() == b"solid" and b"facet" in data[:1000]
-    if len(data) < 84 or (is_text and len(data) != wanted):
+    if len(data) < 84 or (is_text_stl(data) and len(data) != wanted):
         return None, None
     if len(data) < wanted:
         raise InputError(f"{path} is cut short: it announces {n} facets, and holds {(len(data) - 84) // 50}")
@@ -156,16 +156,18 @@ def _binary_stl(path: Path) -> tuple[Any, Any]:
     return corners, np.arange(3 * n).reshape(-1, 3)
 
 
-def _by_trimesh(path: Path) -> tuple[Any, Any]:
+def _by_reader(path: Path) -> tuple[Any, Any]:
     shortfall = ply_shortfall(path) if path.suffix.lower() == ".ply" else ""
     if shortfall:
         raise InputError(f"{path} is cut off: {shortfall}", hint="export it again")
     try:
+        if path.suffix.lower() == ".stl":
+            return read_text_stl(path)
         mesh = load_by_trimesh(path, PictureReader(), force="mesh", skip_materials=True)
         return np.asarray(mesh.vertices), np.asarray(mesh.faces)
     except InputError:
         raise
-    except Exception as error:  # trimesh's readers raise whatever their parsers do
+    except Exception as error:  # readers raise whatever their parsers do
         raise InputError(f"{path} can't be read as {path.suffix[1:].upper()} ({_one_line(error)})") from None
 
 

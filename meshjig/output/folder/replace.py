@@ -94,6 +94,8 @@ def _as_sentences(target: Path) -> Iterator[None]:
 
 
 def _refuse_inputs(target: Path, inputs: Sequence[str | os.PathLike[str]]) -> None:
+    if os.path.lexists(target) and not target.is_dir():
+        return  # nothing lies in a file
     for given in inputs:
         for place in (Path(os.path.abspath(given)), Path(os.path.realpath(given))):
             if place == target or target in place.parents:
@@ -138,5 +140,20 @@ def _refuse_closed(target: Path) -> None:
         above = above.parent
     if above.is_symlink():  # with all links followed that lead somewhere
         raise OutputError(f"{above} is a link that leads to itself", hint="choose another folder with -o")
-    if not above.is_dir() or not os.access(above, os.W_OK):
-        raise OutputError(f"the output folder {target} can't be written ({above} is closed)", hint=_HINT)
+    if not above.is_dir():
+        says, hint = f"{above} is a file, not a folder", "choose another folder with -o"
+    elif os.access(above, os.W_OK):
+        return
+    elif _on_read_only_disk(above):
+        says, hint = f"{above} is on a disk that can only be read", "choose a folder on another disk with -o"
+    else:
+        says = f"you have no permission to write to {above}"
+        hint = "choose another with -o, or get the permission"
+    raise OutputError(f"the output folder {target} can't be written ({says})", hint=hint)
+
+
+def _on_read_only_disk(folder: Path) -> bool:
+    try:
+        return bool(os.statvfs(folder).f_flag & os.ST_RDONLY)
+    except (OSError, AttributeError):  # Windows has no such call
+        return False

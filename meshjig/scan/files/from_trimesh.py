@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from meshjig.errors import InputError
 from meshjig.mesh.arrays import Ints
 from meshjig.scan.files.attachments import as_rgb
 from meshjig.scan.files.join import join
@@ -28,6 +29,11 @@ def from_trimesh(loaded: Any) -> Source:
     Source
         A scene's meshes, each in its place, as one; points only where it has no meshes. Its unit is not among
         that, as trimesh guesses units from names of files.
+
+    Raises
+    ------
+    InputError
+        It lies in a plane, as a Path2D does.
     """
     if not hasattr(loaded, "geometry"):
         return _source_of(loaded)
@@ -37,7 +43,13 @@ def from_trimesh(loaded: Any) -> Source:
 
 
 def _source_of(mesh: Any) -> Source:
-    V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64).reshape(-1, 3)
+    V = np.array(getattr(mesh, "vertices", np.zeros((0, 3))), np.float64)
+    if V.size and V.shape[1:] != (3,):
+        raise InputError(
+            f"a {type(mesh).__name__} is no surface: its vertices have shape {V.shape}",
+            hint="give a trimesh.Trimesh, or extrude it to one",
+        )
+    V = V.reshape(-1, 3)
     F = np.array(getattr(mesh, "faces", np.zeros((0, 3))), np.int64).reshape(-1, 3)
     visual: Any = getattr(mesh, "visual", None)
     kind = getattr(visual, "kind", None) if len(F) and (F.min() >= 0) and (F.max() < len(V)) else None

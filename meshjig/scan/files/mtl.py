@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -24,6 +25,7 @@ class Picture:
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
     clamp: bool = False  # whether it does not repeat
+    named_by: Path | None = None  # the file of materials
 
     def place(self, uv: Floats) -> Floats:
         """Give the places in the picture of texture coordinates (..., 2)."""
@@ -46,12 +48,14 @@ class Material:
         return self.pictures.get("map_kd") or self.pictures.get("map_ka")
 
 
-def parse_mtl(data: bytes) -> dict[str, Material]:
+def parse_mtl(data: bytes, path: Path | None = None) -> dict[str, Material]:
     """Read a file of materials, by name.
 
     Parameters
     ----------
     data : bytes
+    path : Path, optional
+        Of the file; pictures are looked for beside it.
 
     Returns
     -------
@@ -71,11 +75,11 @@ def parse_mtl(data: bytes) -> dict[str, Material]:
                 red, green, blue = (numbers * 3)[:3] if len(numbers) < 3 else numbers[:3]
                 current.colour = (red, green, blue)
         elif key in ("map_kd", "map_ka") and rest:
-            current.pictures[key] = _picture(rest)
+            current.pictures[key] = _picture(rest, path)
     return materials
 
 
-def _picture(text: str) -> Picture:
+def _picture(text: str, path: Path | None) -> Picture:
     """Take apart a line such as ``-s 2 2 1 -clamp on wood grain.png``."""
     scale, offset, clamp = (1.0, 1.0), (0.0, 0.0), False
     while text.startswith("-"):
@@ -95,4 +99,4 @@ def _picture(text: str) -> Picture:
         elif option == "-clamp":
             clamp = words[0].lower() == "on"
         text = [*after.split(None, count), ""][count] if count else after
-    return Picture(text.strip("\"' "), scale, offset, clamp)
+    return Picture(text.strip("\"' "), scale, offset, clamp, path)

@@ -11,7 +11,7 @@ from meshjig.mesh.arrays import Ints
 from meshjig.scan.files.attachments import PictureReader
 from meshjig.scan.files.beside import find_beside, read_beside, short
 from meshjig.scan.files.looks import together
-from meshjig.scan.files.mtl import Material, parse_mtl
+from meshjig.scan.files.mtl import Material, Picture, parse_mtl
 from meshjig.scan.files.surface import levels
 from meshjig.scan.files.words import Lines
 from meshjig.scan.source import Look
@@ -59,14 +59,14 @@ def look_of_materials(
     if not any(name in known for name in by_name):
         return plain, notes
     chosen = [known.get(name or "", Material()) for name in by_name]
-    pictures.expected = len({one.picture.name for one in chosen if one.picture})
+    pictures.expected = len({(one.picture.named_by, one.picture.name) for one in chosen if one.picture})
     shelf = _Shelf(path, pictures)
     groups = []
     for k, one in enumerate(chosen):
         some = np.flatnonzero(group == k)
         if one.picture and plain.uv is None and len(some):
             shelf.without_places(one.picture.name)
-        pixels = shelf.pixels(one.picture.name) if one.picture and plain.uv is not None else None
+        pixels = shelf.pixels(one.picture) if one.picture and plain.uv is not None else None
         if pixels is not None and one.picture and plain.uv is not None:
             bare = np.isnan(plain.uv[some]).any(axis=(1, 2))
             placed = some[~bare]
@@ -81,16 +81,17 @@ class _Shelf:
 
     def __init__(self, path: Path, pictures: PictureReader) -> None:
         self._path, self._pictures = path, pictures
-        self._read: dict[str, NDArray[np.uint8] | None] = {}
+        self._read: dict[tuple[Path | None, str], NDArray[np.uint8] | None] = {}
 
-    def pixels(self, name: str) -> NDArray[np.uint8] | None:
+    def pixels(self, picture: Picture) -> NDArray[np.uint8] | None:
         """Give a picture, None where it is missing or damaged; then there is a note."""
-        if name not in self._read:
-            data = read_beside(self._path, name)
+        name, key = picture.name, (picture.named_by, picture.name)
+        if key not in self._read:
+            data = read_beside(self._path, name, first=picture.named_by)
             if data is None:
                 self._pictures.notes.append(f"the picture {short(name)} is missing: it is left out")
-            self._read[name] = None if data is None else self._pictures.pixels(data, name)
-        return self._read[name]
+            self._read[key] = None if data is None else self._pictures.pixels(data, name)
+        return self._read[key]
 
     def without_places(self, name: str) -> None:
         """Note that the model has no texture coordinates for a picture."""
@@ -124,5 +125,5 @@ def _library(path: Path, lines: Lines) -> tuple[dict[str, Material], list[str]]:
                     f"the file of materials {short(name)} is missing, and with it colours and pictures"
                 )
             else:
-                known = {**parse_mtl(data), **known}
+                known = {**parse_mtl(data, find_beside(path, name)), **known}
     return known, list(dict.fromkeys(notes))

@@ -74,8 +74,12 @@ class Lines:
         return np.diff(self._first)
 
     def line(self, k: int) -> str:
-        """Give a line as it reads, without blanks around it."""
-        return self.text[self._start[k] : self._start[k + 1]].decode("utf-8", "replace").strip()
+        """Give a line as it reads, without blanks around it; in Latin-1 where it is no UTF-8."""
+        line = self.text[self._start[k] : self._start[k + 1]]
+        try:
+            return line.decode("utf-8").strip()
+        except UnicodeDecodeError:
+            return line.decode("latin-1").strip()
 
     def rest(self, k: int) -> str:
         """Give a line without its first word."""

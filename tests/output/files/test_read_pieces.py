@@ -58,6 +58,22 @@ def test_every_format_gives_the_closed_mesh_back(tmp_path, format):
     np.testing.assert_allclose(V[F], BALL.V[BALL.F], rtol=1e-6, atol=1e-5)
 
 
+@pytest.mark.parametrize("coding", ["utf-8-sig", "utf-16"])
+def test_a_text_stl_may_begin_with_a_byte_order_mark(tmp_path, coding):
+    path = write(tmp_path / "ball.stl", BALL, file_type="stl_ascii")
+    path.write_bytes(path.read_text().encode(coding))
+    [(_, V, F)] = read_pieces(path)
+    assert is_closed(F)
+    assert (len(V), len(F)) == (len(BALL.V), len(BALL.F))
+
+
+def test_a_damaged_text_stl_is_told(tmp_path):
+    path = write(tmp_path / "ball.stl", BALL, file_type="stl_ascii")
+    path.write_text(path.read_text().replace("vertex", "vertex x", 1))
+    with pytest.raises(InputError, match=r"ball\.stl is damaged: 1 of its \d+ facets can't be read"):
+        read_pieces(path)
+
+
 def test_vertices_merge_only_when_they_are_equal(tmp_path):
     near = np.float32(1) + np.finfo(np.float32).eps
     facets = [[(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(-0.0, 0, 0), (0, 1, 0), (near, 0, 0)]]
@@ -151,7 +167,7 @@ def test_a_package_in_inches_is_read_in_mm(tmp_path):
         ("a.stl", bytes(84), "no faces"),
         ("a.stl", bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[np.nan] * 12, 0), "finite"),
         ("a.stl", bytes(80) + struct.pack("<I", 1) + bytes(50), "no faces"),
-        ("a.stl", b"hello", "can't be read as STL|no faces"),
+        ("a.stl", b"hello", "is cut off"),
         ("a.obj", b"", "is empty"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n", "can't be read as PLY"),
         ("a.3mf", b"PK\x03\x04 no package", "can't be read as 3MF"),

@@ -1,9 +1,11 @@
 import errno
 import json
 import os
+import re
 import stat
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -192,6 +194,39 @@ def test_an_input_inside_the_target_is_refused(tmp_path, link):
     ):
         pytest.fail("the block must not run")
     assert tree(tmp_path) == was
+
+
+@pytest.mark.parametrize(
+    ("below", "words"),
+    [
+        ("", "^{0} is a file, not a folder: choose another folder with -o$"),
+        ("x/y", r"^the output folder {0}/x/y can't be written \({0} is a file, not a folder\): choose"),
+    ],
+)
+def test_the_input_itself_is_no_folder(tmp_path, below, words):
+    given = tmp_path / "b.ply"
+    given.write_text("dear to me")
+    with (
+        pytest.raises(OutputError, match=words.format(re.escape(str(given)))),
+        replace_folder(given / below, inputs=[given]),
+    ):
+        pytest.fail("the block must not run")
+    assert tree(tmp_path) == {"b.ply": "dear to me"}
+
+
+@pytest.mark.skipif(not hasattr(os, "statvfs"), reason="nothing tells of disks here")
+@pytest.mark.parametrize(
+    ("flag", "words"),
+    [
+        (getattr(os, "ST_RDONLY", 1), r"is on a disk that can only be read\): .* another disk with -o"),
+        (0, r"\(you have no permission to write to .*\): choose another with -o"),
+    ],
+)
+def test_why_a_folder_is_closed_is_told(tmp_path, monkeypatch, flag, words):
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    monkeypatch.setattr(os, "statvfs", lambda _: SimpleNamespace(f_flag=flag))
+    with pytest.raises(OutputError, match=words), replace_folder(tmp_path / "out"):
+        pytest.fail("the block must not run")
 
 
 def test_a_file_that_comes_at_the_last_moment_is_kept(tmp_path, monkeypatch):

@@ -1,5 +1,8 @@
 """Materials of OBJ files: several of them, and what of theirs is missing."""
 
+import os
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -91,3 +94,47 @@ def test_a_picture_without_places_is_named(tmp_path):
     path = tmp_path / "model.obj"
     path.write_text(f"mtllib a.mtl\n{SQUARES}usemtl red\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n")
     assert load(path).notes == ["the picture red.png is left out: no face has a place in it"]
+
+
+SQUARE = "".join(SQUARES.splitlines(keepends=True)[:4])
+ONE = f"{SQUARE}{PLACES}usemtl red\nf 1/1 2/2 3/3 4/4\n"
+
+
+@pytest.mark.parametrize("name", ["blau.jpg", "C:\\x\\blau.jpg", "/home/me/BLAU.jpg"])
+def test_a_picture_is_looked_for_beside_the_file_of_materials_first(tmp_path, name):
+    (tmp_path / "sub dir").mkdir()
+    picture(tmp_path / "sub dir" / "blau.jpg", (0, 0, 0))
+    picture(tmp_path / "blau.jpg", (255, 255, 255))
+    (tmp_path / "sub dir" / "m.mtl").write_text(f"newmtl red\nmap_Kd {name}\n")
+    path = tmp_path / "model.obj"
+    path.write_text("mtllib sub dir/m.mtl\n" + ONE)
+    read = load(path)
+    assert (read.notes, shown(read.source)) == ([], [[0, 0, 0]] * 2)
+    (tmp_path / "sub dir" / "blau.jpg").unlink()
+    read = load(path)
+    assert (read.notes, shown(read.source)) == ([], [[255, 255, 255]] * 2)
+
+
+def test_pictures_of_one_name_in_two_folders_are_two(tmp_path):
+    for folder, colour in (("a", (255, 0, 0)), ("b", (0, 0, 255))):
+        (tmp_path / folder).mkdir()
+        picture(tmp_path / folder / "x.png", colour)
+        (tmp_path / folder / "m.mtl").write_text(f"newmtl {folder}\nmap_Kd x.png\n")
+    path = tmp_path / "model.obj"
+    faces = "usemtl a\nf 1/1 2/2 3/3 4/4\nusemtl b\nf 5/1 6/2 7/3 8/4\n"
+    path.write_text(f"mtllib a/m.mtl\nmtllib b/m.mtl\n{SQUARES}{PLACES}{faces}")
+    assert shown(load(path).source) == [[255, 0, 0]] * 2 + [[0, 0, 255]] * 2
+
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="names are no bytes here")
+
+
+@pytest.mark.parametrize("disk", ["utf-8", pytest.param("latin-1", marks=LINUX)])
+@pytest.mark.parametrize("text", ["utf-8", "latin-1"])
+def test_names_in_latin_1_are_found(tmp_path, disk, text):
+    mtl = tmp_path / os.fsdecode("grün.mtl".encode(disk))
+    mtl.write_bytes("newmtl röt\nKd 1 0 0\n".encode(text))
+    path = tmp_path / "model.obj"
+    path.write_bytes(f"mtllib grün.mtl\n{SQUARE}usemtl röt\nf 1 2 3 4\n".encode(text))
+    read = load(path)
+    assert (read.notes, shown(read.source)) == ([], [[255, 0, 0]] * 2)
