@@ -14,7 +14,8 @@ __all__ = ["with_values"]
 def with_values(words: Sequence[str]) -> list[str]:
     """Give the words of a command line, with a value after each flag that stands alone but means one.
 
-    A number or that value itself is what a user gives; whatever else follows is not the flag's.
+    The name of a file, or another flag, that follows is not the flag's. Any other word is its value, which is
+    refused later where it is none.
     """
     alone = {
         "--" + name.replace("_", "-"): str(field.json_schema_extra["alone"])
@@ -24,12 +25,15 @@ def with_values(words: Sequence[str]) -> list[str]:
     filled = []
     for word, after in zip_longest(words, words[1:]):
         filled.append(word)
-        if word in alone and after != alone[word] and not _is_number(after):
+        if word in alone and not _may_be_value(after):
             filled.append(alone[word])
     return filled
 
 
-def _is_number(word: str | None) -> bool:
+def _may_be_value(word: str | None) -> bool:
+    if word is None:
+        return False
     with suppress(ValueError):
-        return word is not None and float(word) == float(word)
-    return False
+        float(word)
+        return True
+    return not word.startswith("-") and "." not in word and "/" not in word

@@ -10,6 +10,7 @@ from meshjig.extras import LETTERING, CoreShape, engrave, make_core
 from meshjig.extras.core import CoreFacts
 from meshjig.extras.engrave import LabelFacts
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
@@ -114,7 +115,9 @@ def verify_core(core: Core | None, pieces: Pieces, options: Options, exempt: Seq
     ]
     parts = all_printable([(part.V, part.F) for part in kept])
     core = replace(
-        core, parts=[replace(old, V=V, F=F) for old, (V, F) in zip(core.parts, parts, strict=True)]
+        core,
+        parts=[replace(old, V=V, F=F) for old, (V, F) in zip(core.parts, parts, strict=True)],
+        facts=replace(core.facts, volume_mm3=sum(mesh_volume(V, F) for V, F in parts)),
     )
     return _judged(core, pieces, options, exempt)
 

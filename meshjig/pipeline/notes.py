@@ -12,7 +12,7 @@ from meshjig.layout.layout import Layout
 from meshjig.layout.lock_advice import FEW_LOCKED, LockAdvice, lock_advice
 from meshjig.options import PROCESSES, Options
 
-__all__ = ["core_note", "lock_note"]
+__all__ = ["core_notes", "lock_note"]
 
 _LEAST_PIECES = 4  # as few are no puzzle any more
 _TILES = 1.5  # times as large, most tiles lock that hardly did
@@ -54,12 +54,20 @@ def lock_note(layout: Layout, locks: Interlock, options: Options) -> str | None:
     return f"{held}: {wide}; try {first}{' with ' if first else ''}{' or '.join(ways)}"
 
 
-def core_note(core: CoreFacts | None) -> str | None:
-    """Say so where a core is not hollow everywhere."""
-    if core is None or core.filled_mm3 == 0:
-        return None
-    solid = f"{core.filled_mm3 / 1000:.0f} cm3 of the core are solid"
-    return f"{solid}, since no hollow with a drain could be made there"
+def core_notes(core: CoreFacts | None, bodies: int) -> list[str]:
+    """Say so where a core is not hollow everywhere, or is in one of several bodies only."""
+    if core is None:
+        return []
+    notes = []
+    if bodies > 1:
+        notes.append(
+            f"the core is made for the largest of {bodies} bodies only: make the others alone where they are"
+            " to have one"
+        )
+    if core.filled_mm3:
+        solid = f"{core.filled_mm3 / 1000:.0f} cm3 of the core are solid"
+        notes.append(f"{solid}, since no hollow with a drain could be made there")
+    return notes
 
 
 def _ways(advice: LockAdvice, extent: float, size: float, options: Options) -> list[str]:

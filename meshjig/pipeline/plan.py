@@ -17,10 +17,11 @@ from meshjig.output.plates.printers import estimate_plates, parse_plate
 from meshjig.output.report import Report
 from meshjig.pipeline.cells_or_advice import refuse_cells
 from meshjig.pipeline.extras import build_core
-from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_unknown_names
+from meshjig.pipeline.notes import core_notes
+from meshjig.pipeline.preflight import piece_size, refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 from meshjig.pipeline.up import up_direction
-from meshjig.pipeline.work_mesh import piece_size, work_atlas, work_mesh
+from meshjig.pipeline.work_mesh import work_atlas, work_mesh
 from meshjig.solid import Shell, shell
 
 __all__ = ["plan_puzzle"]
@@ -82,7 +83,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "plate": str(plate),
         "plates": min(estimate_plates(n, area, plate, GAP), n) + (core.facts.parts if core else 0),
         "material": material_of(bulk, options.process),
-        "notes": scan.facts.notes,
+        "notes": [*scan.facts.notes, *core_notes(core.facts if core else None, scan.facts.components)],
     }
 
 

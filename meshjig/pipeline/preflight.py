@@ -20,6 +20,7 @@ from meshjig.tiling.unit import edge_ends
 
 __all__ = [
     "checked_options",
+    "piece_size",
     "refuse_hollow_piece",
     "refuse_small_plate",
     "refuse_too_small_pieces",
@@ -29,6 +30,11 @@ __all__ = [
 FEWEST = 2  # pieces that a puzzle can have
 NARROWEST = 0.5  # of a piece's size: pieces as narrow as that are rare
 CELL_NECK = 0.13  # of a cell's size; its knobs can be smaller than those of a tile, but not much
+
+
+def piece_size(mesh: Mesh, options: Options) -> float:
+    """Give the edge of a square as large as a piece, mm."""
+    return options.piece_size or float(np.sqrt(mesh.areas.sum() / options.pieces))
 
 
 def checked_options(options: Any, keywords: OptionKeywords) -> Options:

@@ -12,12 +12,11 @@ from typing import Any, Unpack
 import numpy as np
 
 from meshjig.charts import MappedAtlas, build_atlas
-from meshjig.mesh.measure import face_areas
 from meshjig.mesh.types import Bools, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
-from meshjig.pipeline.preflight import checked_options
+from meshjig.pipeline.preflight import checked_options, piece_size
 from meshjig.pipeline.report import meshjig_version
 from meshjig.pipeline.up import AUTO, up_axis
 from meshjig.scan import Floor, Preparation, Scan, read_scan
@@ -112,11 +111,6 @@ def clean_scan(mesh: Any, options: Options) -> Scan:
         notes.append(
             "neither the file nor --up says which way is up: z was taken, along which it was cut off"
         )
-    if options.core and scan.facts.components > 1:
-        notes.append(
-            f"the core is made for the largest of {scan.facts.components} bodies only: make the others alone"
-            " where they are to have one"
-        )
     facts = replace(scan.facts, filled_holes=filled.facts, notes=notes)
     return replace(scan, mesh=Mesh(filled.V, filled.F), facts=facts)
 
@@ -145,5 +139,4 @@ def _open_base(scan: Scan, options: Options) -> Bools | None:
 
 def _widest_hole(mesh: Mesh, options: Options) -> float:
     """Give the diameter, mm, up to which a hole would only be in a tile's way: half a tile."""
-    tile = options.piece_size or float(np.sqrt(face_areas(mesh.V, mesh.F).sum() / options.pieces))
-    return min(tile / 2, WIDEST_HOLE * float(np.ptp(mesh.V, axis=0).max()))
+    return min(piece_size(mesh, options) / 2, WIDEST_HOLE * float(np.ptp(mesh.V, axis=0).max()))

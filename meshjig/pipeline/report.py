@@ -21,7 +21,7 @@ from meshjig.options import Options
 from meshjig.output.report import Report
 from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
-from meshjig.pipeline.notes import core_note, lock_note
+from meshjig.pipeline.notes import core_notes, lock_note
 from meshjig.pipeline.verify import Mended
 from meshjig.scan import Scan
 from meshjig.solid.kerf import KerfFacts
@@ -116,9 +116,9 @@ def assemble_report(made: Made) -> Report:
 
 def _notes(made: Made) -> list[str]:
     """Give what a maker should know though no promise is broken, a sentence each."""
-    core = made.core.facts if made.core else None
-    notes = [lock_note(made.layout, made.locks, made.options), core_note(core)]
-    return [note for note in notes if note is not None]
+    locks = lock_note(made.layout, made.locks, made.options)
+    core = core_notes(made.core.facts if made.core else None, made.scan.facts.components)
+    return [*([] if locks is None else [locks]), *core]
 
 
 def _layout(layout: Layout) -> Report:

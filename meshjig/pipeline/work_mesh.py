@@ -13,22 +13,17 @@ from meshjig.mesh.measure import face_areas
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.pipeline.preflight import refuse_small_plate, refuse_too_small_pieces
+from meshjig.pipeline.preflight import piece_size, refuse_small_plate, refuse_too_small_pieces
 from meshjig.pipeline.prepare import chart
 from meshjig.scan import Scan
 
-__all__ = ["piece_size", "work_atlas", "work_mesh"]
+__all__ = ["work_atlas", "work_mesh"]
 
 MUCH_FINER = 1.1  # times as many faces: more freedom for charts
 
 _NEEDLE = 1000.0  # times as long as wide
 _MOST_NEEDLES = 0.05  # of the faces; meshes that people model or scan have none
 _FEW = 20_000  # faces, of which even needles do no harm
-
-
-def piece_size(mesh: Mesh, options: Options) -> float:
-    """Give the edge of a square as large as a piece, mm."""
-    return options.piece_size or float(np.sqrt(mesh.areas.sum() / options.pieces))
 
 
 def work_mesh(mesh: Mesh, options: Options) -> tuple[Mesh, float]:

@@ -20,8 +20,8 @@ _SAMPLE = 1 << 16  # bytes, of which a file of text is looked at in several plac
 _SAMPLES = 8
 _MEMORY, _SECONDS = 250e6, 2.0  # bytes of the run and its reader, and s, for a mesh of no size
 _MEMORY_A_FACE = {"stl": 600.0}  # bytes; STL holds each vertex six times
-_SECONDS_A_FACE = {"stl": 9e-6, "obj": 7e-6}
-_OTHERS = 340.0, 6e-6
+_SECONDS_A_FACE = {"stl": 5.5e-6, "obj": 5e-6}
+_OTHERS = 340.0, 3.5e-6
 
 
 class Forecast(NamedTuple):

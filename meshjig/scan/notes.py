@@ -58,7 +58,8 @@ def open_borders_note(facts: FilledHoles) -> list[str]:
         if len(least) < len(facts.open):
             advice += ", but not the rims of small scraps"
     else:
-        advice = "they are rims of scraps, or can't be closed cleanly: --keep largest leaves scraps out"
+        what = "they are rims" if len(facts.open) > 1 else "it is the rim"
+        advice = f"{what} of scraps, or can't be closed cleanly: --keep largest leaves scraps out"
     s = "s" if len(facts.open) > 1 else ""
     stay = "stay" if s else "stays"
     return [f"{len(facts.open)} hole{s} {stay} open: {'; '.join(named)}{more}. Unless meant so: {advice}"]

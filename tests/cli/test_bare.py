@@ -13,6 +13,8 @@ from meshjig.cli.bare import with_values
         ("make scan.ply --flat-base --json", "make scan.ply --flat-base auto --json"),
         ("make scan.ply --flat-base 3.5 --json", "make scan.ply --flat-base 3.5 --json"),
         ("make scan.ply --flat-base auto", "make scan.ply --flat-base auto"),
+        ("make scan.ply --flat-base deep", "make scan.ply --flat-base deep"),  # refused as a value
+        ("make scan.ply --flat-base -1", "make scan.ply --flat-base -1"),
         ("make scan.ply --pieces 3", "make scan.ply --pieces 3"),
     ],
 )

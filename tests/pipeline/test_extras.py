@@ -7,9 +7,15 @@ import pytest
 from PIL import Image
 
 from meshjig import Puzzle, make_puzzle
+from meshjig.extras.core import CoreFacts
 from meshjig.mesh.measure import mesh_volume
+from meshjig.mesh.mesh import Mesh
+from meshjig.mesh.pieces import Pieces
+from meshjig.options import Options
+from meshjig.output.piece import Piece
 from meshjig.pipeline.check_folder import check_folder
-from tests.meshes import sphere
+from meshjig.pipeline.extras import Core, verify_core
+from tests.meshes import moved, sphere
 
 N = 20
 ASKED = {"pieces": N, "size": 90, "clearance": 0.3}
@@ -86,3 +92,15 @@ def test_what_the_report_lists_and_no_file_holds_is_missing(folder, tmp_path):
     found = check_folder([copy], {})
     assert not found["ok"]
     assert found["failures"]["missing"] == ["core_1", "piece_003"]
+
+
+def test_a_core_yields_where_a_piece_comes_too_near():
+    near = Mesh(*moved(sphere(800, 10.0), [19.9, 0, 0]))  # it reaches 0.1 mm into the core
+    V, F = sphere(800, 10.0)
+    part = Piece("core_1", V, F, (0.6, 0.6, 0.6))
+    facts = CoreFacts(1, float(mesh_volume(V, F)), 0, 0, 0.0, 0.0)
+    core = verify_core(Core([part], facts), Pieces(("piece_001",), (near,)), Options.of(), [])
+    assert core.failures == {}
+    assert core.checks.gap_mm >= 0.95 * 0.2
+    assert core.facts.volume_mm3 < facts.volume_mm3
+    assert core.facts.volume_mm3 == pytest.approx(mesh_volume(core.parts[0].V, core.parts[0].F))

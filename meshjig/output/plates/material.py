@@ -10,7 +10,7 @@ from meshjig.output.piece import Piece
 from meshjig.output.plates.pose import lying_pose
 from meshjig.output.plates.support import support_under
 
-__all__ = ["RATES", "Bulk", "Material", "Rate", "bulk_of", "bulk_of_core", "bulk_of_surface", "material_of"]
+__all__ = ["RATES", "Bulk", "Material", "Rate", "bulk_of", "bulk_of_surface", "material_of"]
 
 Material = dict[str, float | None]
 
@@ -97,18 +97,6 @@ def bulk_of_surface(area: float, thickness: float, piece_size: float) -> Bulk:
     sides = area * (2 + _RIM * thickness / piece_size)
     overhang = _HANGS * sides
     return Bulk(area * thickness, sides, overhang, overhang * _SAG * piece_size)
-
-
-def bulk_of_core(area: float, enclosed: float, wall: float) -> Bulk:
-    """Tell the same of a hollow core before there is one.
-
-    Parameters
-    ----------
-    area : float, of the surface, mm2
-    enclosed : float, volume that the surface encloses, mm3
-    wall : float, of the core, mm
-    """
-    return Bulk(0.9 * area * wall, 1.75 * area, 0.25 * area, 0.65 * enclosed)
 
 
 def material_of(bulk: Bulk, process: str) -> Material:
