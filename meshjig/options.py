@@ -67,6 +67,7 @@ class OptionKeywords(TypedDict, total=False):
     stitch: float | None
     cavities: bool | None
     memory: float | None
+    cores: int | None
     labels: bool | None
     core: bool | None
     seed: int | None
@@ -176,6 +177,9 @@ class Options(BaseModel):
     )
     memory: FiniteFloat | None = Field(
         None, gt=0, description="limit of memory, GB: what would take more ends in a sentence"
+    )
+    cores: int | None = Field(
+        None, ge=1, le=4096, description="cores to use; 1: no second process; all if not given"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     labels: bool = Field(False, description="engrave the number of every piece into its inner side")

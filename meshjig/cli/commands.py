@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 from pathlib import Path
 from typing import Annotated
@@ -18,6 +19,7 @@ from meshjig.cli.terminal import progress_bar, tell_each, tell_next_step, tell_n
 from meshjig.errors import OptionError
 from meshjig.options import Options
 from meshjig.runtime.bounded import ReadAhead
+from meshjig.runtime.cores import cores, thread_limits
 
 __all__ = ["app"]
 
@@ -82,7 +84,7 @@ def make(
     set_verbosity(verbose, quiet)
     options = read_options(config, flags)
     _refuse_no_name(mesh)
-    _watch(options)
+    _limit(options)
     if dry_run:
         from meshjig.pipeline.plan import plan_puzzle
 
@@ -135,7 +137,7 @@ def info(
     flags |= {} if method is None else {"charts": method}
     options = read_options(None, flags, spelt={"charts": "method"})
     _refuse_no_name(mesh)
-    _watch(options)
+    _limit(options)
     if charts or method or output:
         from meshjig.pipeline.prepare import describe_charts
 
@@ -251,8 +253,11 @@ def tiles(
     emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
-def _watch(options: Options) -> None:
-    """Keep the run within the limit of memory that was given, if one was."""
+def _limit(options: Options) -> None:
+    """Keep the run within the limits of cores and of memory that were given, if any was."""
+    if options.cores is not None:
+        os.environ |= thread_limits(options.cores)  # before the libraries that read it are loaded
+    cores()  # refuses what the environment says, if that is no number
     if options.memory is not None:
         from meshjig.runtime.memory import watch_memory
 
