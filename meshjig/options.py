@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 from meshjig.errors import did_you_mean
 from meshjig.option_errors import option_error, refused, shown_value, spelling
 
-__all__ = ["PROCESSES", "OptionKeywords", "Options"]
+__all__ = ["EITHER", "PROCESSES", "OptionKeywords", "Options"]
 
 Preset = dict[str, Any]
 
@@ -25,6 +25,7 @@ PROCESSES: dict[str, Preset] = {
 
 OF_TILES = {"angle", "charts", "pole", "random_style", "tile"}
 OF_CELLS = {"crease_aware", "style"}
+EITHER = {"pieces": "piece_size", "piece_size": "pieces"}  # who gives one takes back the other
 LONGEST = 100_000.0  # mm
 _MOST_SEED = 2**63 - 1
 

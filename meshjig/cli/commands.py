@@ -10,9 +10,10 @@ from typing import Annotated
 
 import typer
 
+from meshjig.cli.batch import batch
 from meshjig.cli.config import read_options
 from meshjig.cli.endings import BROKEN_PROMISE, EPILOG, Ending, broken_promises
-from meshjig.cli.flags import Flags, takes_options
+from meshjig.cli.flags import AsJson, Config, Flags, Quiet, Verbose, takes_options
 from meshjig.cli.lines import as_lines
 from meshjig.cli.streams import emit, say, set_verbosity
 from meshjig.cli.terminal import progress_bar, tell_each, tell_next_step, tell_notes
@@ -34,14 +35,6 @@ app = typer.Typer(
 )
 
 MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, glTF, GLB or 3MF file")]
-Config = Annotated[
-    Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
-]
-AsJson = Annotated[
-    bool, typer.Option("--json", help="print the result, or the failure, as JSON on standard output")
-]
-Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
 
 
 @app.callback(invoke_without_command=True)
@@ -50,7 +43,7 @@ def _root(
     show_version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
 ) -> None:
     if show_version:
-        from meshjig.pipeline.report import meshjig_version
+        from meshjig.runtime.version import meshjig_version
 
         emit(meshjig_version())
         raise typer.Exit
@@ -251,6 +244,9 @@ def tiles(
         write_svg_file(svg, draw_svg(unit, decor=get_decor(name)))
     facts = {"tiles": unit.n_tiles, "edges": len(unit.ends), "knobs": unit.template is not None}
     emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
+
+
+app.command()(takes_options()(batch))
 
 
 def _limit(options: Options) -> None:

@@ -108,6 +108,8 @@ def _leave(reading: int, status: int) -> NoReturn:
         os.write(2, _SHOW_CURSOR)
     for target in targets:
         written |= {target} if _clear_up(target) else set()
+    for folder in [str(value) for word, value in told if word == "scratch"]:
+        _remove(folder)
     for parent in [str(value) for word, value in told if word == "parent"][::-1]:
         try:
             os.rmdir(parent)
@@ -122,6 +124,7 @@ def _tell_ending(number: int, written: list[str], told: dict[str, str | int]) ->
 
     name = signal.Signals(number).name if number else "an exit of its own"  # as some libraries have it
     done = f"{', '.join(written)} is whole" if written else "nothing was written"
+    done = str(told.get("lasting", done))
     stage = str(told["stage"]) if "stage" in told else None
     short = told.get("memory") or _short_of_address_space(name)
     if _asked_by or name in ("SIGTERM", "SIGHUP", "SIGINT"):
@@ -151,11 +154,15 @@ def _end(ending: Ending, answered: bool = False) -> NoReturn:
 def _exit(code: int) -> NoReturn:
     """End this process; where its owner is gone, with all that it leads."""
     if _owner and os.getppid() != _owner:
-        from shutil import rmtree
-
-        rmtree(_scratch, ignore_errors=True)
+        _remove(_scratch)
         os.killpg(0, signal.SIGKILL)
     os._exit(code)
+
+
+def _remove(folder: str) -> None:
+    from shutil import rmtree
+
+    rmtree(folder, ignore_errors=True)
 
 
 def _refuse_little_memory() -> None:
