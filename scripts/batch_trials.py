@@ -1,6 +1,7 @@
 """Trials of meshjig batch on this machine: what must not be lost, left over, or made twice.
 
-    scripts/batch_trials.py mixed DIR [--cases FOLDER] [--sound 300] [--all 400]
+    scripts/batch_trials.py mixed DIR [--cases FOLDER] [--scans 400]
+    scripts/batch_trials.py client|worker|scheduler DIR [--scans 24] [--kills 10] [--seed 0]
 
 Each makes what it needs in DIR, which must be new, prints figures, and ends with 1 if something was wrong.
 """
@@ -9,6 +10,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from batch_trials.kills import kills
 from batch_trials.mixed import mixed
 
 
@@ -16,15 +18,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("trial", choices=["mixed"])
+    parser.add_argument("trial", choices=["mixed", "client", "worker", "scheduler"])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cases", type=Path)
-    parser.add_argument("--sound", type=int, default=300)
-    parser.add_argument("--all", type=int, default=400)
+    parser.add_argument("--scans", type=int)
+    parser.add_argument("--kills", type=int, default=10)
+    parser.add_argument("--seed", type=int, default=0)
     a = parser.parse_args()
     work = a.folder.resolve()
     work.mkdir(parents=True)
-    good = mixed(work, a.cases, a.sound, a.all)
+    if a.trial == "mixed":
+        good = mixed(work, a.cases, a.scans or 400)
+    else:
+        good = kills(work, a.trial, a.scans or 24, a.kills, a.seed)
     return 0 if good else 1
 
 

@@ -40,8 +40,8 @@ def run_for(owner: str, scratch: str, *words: str) -> NoReturn:
     from meshjig.runtime.interpreter import end_with_parent
 
     _owner, _scratch, sys.argv[1:] = int(owner), scratch, words
-    signal.signal(signal.SIGTERM, _end_the_run)
-    end_with_parent(_owner, signal.SIGTERM)
+    signal.signal(signal.SIGHUP, _end_the_run)
+    end_with_parent(_owner, signal.SIGHUP)
     run_in_front()
 
 
@@ -134,7 +134,8 @@ def _tell_ending(number: int, written: list[str], told: dict[str, str | int]) ->
         ending = Ending("resources", f"{short}; {done}", hint, stage, NO_RESOURCES)
     elif name == "SIGKILL":
         message = f"the run was killed, perhaps for want of memory; {done}"
-        ending = Ending("killed", message, "use fewer faces (--faces)", stage, CUT_OFF + number)
+        hint = "" if "lasting" in told else "use fewer faces (--faces)"
+        ending = Ending("killed", message, hint, stage, CUT_OFF + number)
     else:
         message = f"native code ended by {_CRASHES.get(name, name)}; {done}"
         ending = Ending("bug", message, "this is a bug, -v shows where", stage, BUG)
@@ -153,7 +154,7 @@ def _end(ending: Ending, answered: bool = False) -> NoReturn:
 
 def _exit(code: int) -> NoReturn:
     """End this process; where its owner is gone, with all that it leads."""
-    if _owner and os.getppid() != _owner:
+    if _owner and (_asked_by == signal.SIGHUP or os.getppid() != _owner):
         _remove(_scratch)
         os.killpg(0, signal.SIGKILL)
     os._exit(code)

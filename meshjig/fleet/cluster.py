@@ -50,7 +50,7 @@ def local_cluster(workers: int) -> Iterator[Any]:
             threads_per_worker=1,
             processes=True,
             memory_limit=0,
-            dashboard_address=None,
+            dashboard_address="127.0.0.1:0",  # for nobody else, on whatever port is free
             host="127.0.0.1",
             silence_logs=logging.CRITICAL,
             local_directory=str(scratch),

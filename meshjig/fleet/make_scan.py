@@ -137,7 +137,7 @@ def _digests(mesh: Path) -> tuple[str, str]:
 def _command(folder: Path, mesh: Path, target: Path, task: Task) -> list[str]:
     """Write the options to a file, and give the command line that makes the puzzle."""
     given = {**task.given, "cores": 1, "memory": task.terms.memory}
-    (folder / "options.toml").write_text(toml_text(given), encoding="utf-8")
+    (folder / "options.toml").write_text(toml_text(given), "utf-8", "replace")
     if task.drawing is not None:
         (folder / task.drawing.name).write_bytes(task.drawing.data)
     shown = mesh.relative_to(folder).as_posix() if is_url(task.source) else str(mesh)

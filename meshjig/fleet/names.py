@@ -72,7 +72,7 @@ class Names:
         -------
         str
             Its own name without the suffix; where that is taken the relative path, with the suffix if need
-            be; parts separated by slashes.
+            be, parts separated by slashes; and where that is taken too, with a number.
         """
         for name in _candidates(relative):
             key = _key(name)
@@ -97,8 +97,9 @@ def _candidates(relative: str) -> Iterator[str]:
     yield bare
     full = "/".join(map(_safe, parts))
     yield full
+    flat = full.replace("/", "-")[-_LONGEST:]  # what lies above may itself be a scan
     for number in count(2):
-        yield f"{full}-{number}"
+        yield f"{flat}-{number}"
 
 
 def _safe(part: str) -> str:

@@ -29,10 +29,17 @@ def _is_plain(value: object) -> bool:
 
 
 def _key(name: str) -> str:
-    return json.dumps(name)
+    return _text(name)
 
 
 def _value(value: object) -> str:
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, str):
+        return _text(value)
     return repr(value) if isinstance(value, float) else json.dumps(value)  # TOML has inf and nan, as Python
+
+
+def _text(value: str) -> str:
+    """Quote as JSON does, without its pairs of surrogates, and with what TOML refuses besides."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

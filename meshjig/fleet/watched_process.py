@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 __all__ = ["Cancelled", "Ended", "GroupLimits", "run_watched"]
 
@@ -122,11 +122,25 @@ class _Family:
 
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.leader, signal.SIGKILL)
+        for process in self._left():
+            with suppress(psutil.Error):
+                process.kill()
+        end = time.monotonic() + _PATIENCE
+        while self._left() and time.monotonic() < end:
+            time.sleep(_EVERY)
+
+    def _left(self) -> list[Any]:
+        """List those seen, other than the leader, that still run."""
+        import psutil
+
+        left = []
         for pid, begun in self._members.items():
             with suppress(psutil.Error):
                 process = psutil.Process(pid)
-                if process.create_time() == begun:  # else the number went to another
-                    process.kill()
+                same = process.create_time() == begun  # else the number went to another
+                if same and pid != self.leader and process.status() != psutil.STATUS_ZOMBIE:
+                    left.append(process)
+        return left
 
 
 def _wait(leader: int, family: _Family, limits: GroupLimits, cancelled: Callable[[], bool]) -> str:

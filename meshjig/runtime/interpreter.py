@@ -85,7 +85,7 @@ def end_with_parent(parent: int, number: int = _KILL) -> None:
 
         ctypes.CDLL(None).prctl(_DEATH_SIGNAL, number, 0, 0, 0)
         if os.getppid() != parent:  # it was gone before it could be watched
-            os._exit(1)
+            os.kill(os.getpid(), number)
         return
     import threading
 

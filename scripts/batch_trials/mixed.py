@@ -21,18 +21,18 @@ EXPECTED = {
 }
 
 
-def mixed(work: Path, cases: Path | None, n_sound: int, n_all: int) -> bool:
+def mixed(work: Path, cases: Path | None, n_all: int) -> bool:
     """Run the trial; tell whether all is as it should be."""
     install_faults(work / "site")
     tmp = work / "tmp"
     tmp.mkdir()
-    sound = sound_scans(work / "in", n_sound)
+    sound = sound_scans(work / "in", 3 * n_all // 4)
     rest = (
         sorted(p for p in cases.iterdir() if p.suffix in {".stl", ".obj", ".ply", ".glb", ".3mf"})
         if cases
         else []
     )
-    broken = broken_scans(work / "in", n_all - n_sound - len(rest) - len(EXPECTED))
+    broken = broken_scans(work / "in", n_all - len(sound) - len(rest) - len(EXPECTED))
     rows = [[path, ""] for path in (*sound, *rest, *broken)]
     for i, name in enumerate(EXPECTED):  # spread among the others
         rows.insert((i + 1) * len(rows) // 8, [sound[i].with_name(f"fault-{name}.stl"), f"fault-{name}"])

@@ -1,4 +1,4 @@
-"""Scans for trials: small sound ones, broken ones, and a tiling that does to its process what nobody should."""
+"""Scans for trials: small sound ones, broken ones, and tilings that end the process they run in."""
 
 import sys
 from pathlib import Path

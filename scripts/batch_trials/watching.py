@@ -1,5 +1,6 @@
 """What a batch leaves running, and how much memory it holds."""
 
+import os
 import statistics
 import time
 from pathlib import Path
@@ -24,6 +25,7 @@ class Watcher:
         self.client, self.workers = [], {}
 
     def look(self) -> None:
+        """Look once."""
         for process in tree(self.pid):
             try:
                 self.seen.add(process)
@@ -74,10 +76,12 @@ def _course(held: list[float]) -> str:
 
 
 def running(text: str) -> list[str]:
-    """Name processes whose command line or current folder has a text in it."""
-    found = []
+    """Name other processes whose command line or current folder has a text in it."""
+    found, ours = [], {os.getpid(), *(p.pid for p in psutil.Process().parents())}
     for process in psutil.process_iter():
         try:
+            if process.pid in ours or process.status() == psutil.STATUS_ZOMBIE:
+                continue
             if text in " ".join(process.cmdline()) or text in process.cwd():
                 found.append(f"{process.pid} {' '.join(process.cmdline())[-150:]}")
         except psutil.Error:
