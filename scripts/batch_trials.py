@@ -1,6 +1,7 @@
 """Trials of meshjig batch on this machine: what must not be lost, left over, or made twice.
 
     scripts/batch_trials.py mixed DIR [--cases FOLDER] [--scans 400]
+    scripts/batch_trials.py bucket DIR [--scans 40]
     scripts/batch_trials.py client|worker|scheduler DIR [--scans 24] [--kills 10] [--seed 0]
 
 Each makes what it needs in DIR, which must be new, prints figures, and ends with 1 if something was wrong.
@@ -10,6 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from batch_trials.bucket import bucket
 from batch_trials.kills import kills
 from batch_trials.mixed import mixed
 
@@ -18,7 +20,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("trial", choices=["mixed", "client", "worker", "scheduler"])
+    parser.add_argument("trial", choices=["mixed", "bucket", "client", "worker", "scheduler"])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cases", type=Path)
     parser.add_argument("--scans", type=int)
@@ -29,6 +31,8 @@ def main() -> int:
     work.mkdir(parents=True)
     if a.trial == "mixed":
         good = mixed(work, a.cases, a.scans or 400)
+    elif a.trial == "bucket":
+        good = bucket(work, a.scans or 40)
     else:
         good = kills(work, a.trial, a.scans or 24, a.kills, a.seed)
     return 0 if good else 1

@@ -19,6 +19,7 @@ __all__ = ["make_on_worker", "on_dask"]
 _EVERY = 1.0  # s between two looks at the scheduler, where no scan comes back
 _AT_ONCE = 256  # records that are fetched together
 
+_OVER = {"finished", "error", "cancelled"}  # of a future
 _ENDED = {"closed", "closing", "failed", "stopping", "stopped"}
 
 
@@ -64,15 +65,22 @@ def on_dask(
 
 def _come_back(client: Any, done: queue.SimpleQueue[Any]) -> list[tuple[Any, Any]]:
     """Wait for futures that are done, and give them with their records, or with what was raised."""
-    while True:
+    ready: list[Any] = []
+    while not ready:
         with suppress(queue.Empty):
-            ready = [done.get(timeout=_EVERY)]
-            break
-        _refuse_gone(client)
+            ready.append(done.get(timeout=_EVERY))
+        if not ready and client.status != "running":
+            raise _gone(client)
     with suppress(queue.Empty):
         while len(ready) < _AT_ONCE:
             ready.append(done.get_nowait())
-    if any(future.status in ("cancelled", "lost") for future in ready):
+    for future in ready:
+        if (
+            future.status not in _OVER
+        ):  # its record went with its worker, and is fetched from its folder again
+            future.add_done_callback(done.put)
+    ready = [future for future in ready if future.status in _OVER]
+    if any(future.status == "cancelled" for future in ready):
         raise _gone(client)
     sound = [future for future in ready if future.status == "finished"]
     try:
@@ -83,11 +91,6 @@ def _come_back(client: Any, done: queue.SimpleQueue[Any]) -> list[tuple[Any, Any
         records = [error] * len(sound)  # their worker died with them
     failed = [future for future in ready if future not in sound]
     return [*zip(sound, records, strict=True), *((future, future.exception()) for future in failed)]
-
-
-def _refuse_gone(client: Any) -> None:
-    if client.status != "running":
-        raise _gone(client)
 
 
 def _gone(client: Any) -> ResourceError:

@@ -28,9 +28,9 @@ def kills(work: Path, role: str, n_scans: int, n_kills: int, seed: int) -> bool:
     out, finished, wrong = work / "out", {}, []
     for k in range(n_kills):
         if role == "worker" and k == 0:
-            _kill_workers(work, out, [rng.uniform(1.0, 14.0) for _ in range(n_kills)])
+            _kill_workers(work, out, [rng.uniform(0.5, 9.0) for _ in range(n_kills)])
         elif role != "worker":
-            pause = rng.uniform(1.0, 14.0)
+            pause = rng.uniform(0.5, 9.0)
             said = _killed_once(work, out, role, pause)
             print(f"kill {k + 1} after {pause:.1f} s: {said}", flush=True)
         wrong += _not_gone(work)
