@@ -2,6 +2,7 @@
 
     scripts/batch_trials.py mixed DIR [--cases FOLDER] [--scans 400]
     scripts/batch_trials.py bucket DIR [--scans 40]
+    scripts/batch_trials.py list DIR [--scans 10000000]
     scripts/batch_trials.py client|worker|scheduler DIR [--scans 24] [--kills 10] [--seed 0]
 
 Each makes what it needs in DIR, which must be new, prints figures, and ends with 1 if something was wrong.
@@ -13,6 +14,7 @@ from pathlib import Path
 
 from batch_trials.bucket import bucket
 from batch_trials.kills import kills
+from batch_trials.long_list import long_list
 from batch_trials.mixed import mixed
 
 
@@ -20,7 +22,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("trial", choices=["mixed", "bucket", "client", "worker", "scheduler"])
+    parser.add_argument("trial", choices=["mixed", "bucket", "list", "client", "worker", "scheduler"])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cases", type=Path)
     parser.add_argument("--scans", type=int)
@@ -33,6 +35,8 @@ def main() -> int:
         good = mixed(work, a.cases, a.scans or 400)
     elif a.trial == "bucket":
         good = bucket(work, a.scans or 40)
+    elif a.trial == "list":
+        good = long_list(work, a.scans or 10_000_000, 60.0)
     else:
         good = kills(work, a.trial, a.scans or 24, a.kills, a.seed)
     return 0 if good else 1

@@ -75,9 +75,7 @@ def _come_back(client: Any, done: queue.SimpleQueue[Any]) -> list[tuple[Any, Any
         while len(ready) < _AT_ONCE:
             ready.append(done.get_nowait())
     for future in ready:
-        if (
-            future.status not in _OVER
-        ):  # its record went with its worker, and is fetched from its folder again
+        if future.status not in _OVER:  # its record went with its worker
             future.add_done_callback(done.put)
     ready = [future for future in ready if future.status in _OVER]
     if any(future.status == "cancelled" for future in ready):

@@ -31,7 +31,7 @@ def kills(work: Path, role: str, n_scans: int, n_kills: int, seed: int) -> bool:
             _kill_workers(work, out, [rng.uniform(0.5, 9.0) for _ in range(n_kills)])
         elif role != "worker":
             pause = rng.uniform(0.5, 9.0)
-            said = _killed_once(work, out, role, pause)
+            said = _killed_once(work, out, role, pause, more=k % 3 > 0)
             print(f"kill {k + 1} after {pause:.1f} s: {said}", flush=True)
         wrong += _not_gone(work)
         done = _inodes(out)
@@ -59,14 +59,18 @@ def _words(work: Path, out: Path) -> list[str]:
     return command("batch", work / "in", "-o", out, *_OPTIONS)
 
 
-def _killed_once(work: Path, out: Path, role: str, pause: float) -> str:
-    cluster, more = [], ["--workers", "2"]
+def _killed_once(work: Path, out: Path, role: str, pause: float, more: bool) -> str:
+    """Kill it after a pause; two times in three, once some more are done."""
+    cluster, where = [], ["--workers", "2"]
     if role == "scheduler":
         port = _free_port()
         cluster = [scheduler(work / "s", port)]
         cluster += [worker(work / f"w{i}", port, TMPDIR=str(work / "tmp")) for i in (0, 1)]
-        more = ["--scheduler", f"tcp://127.0.0.1:{port}"]
-    process = _begin(work, out, more)
+        where = ["--scheduler", f"tcp://127.0.0.1:{port}"]
+    before = len(_inodes(out))
+    process = _begin(work, out, where)
+    while more and process.poll() is None and len(_inodes(out)) == before:
+        time.sleep(0.05)
     time.sleep(pause)
     family = tree(process.pid)
     if process.poll() is not None:
