@@ -6,9 +6,10 @@ pip install 'meshjig[batch]' dask-jobqueue; then python deploy/dask_jobqueue.py 
 import sys
 
 import dask
-import meshjig
 from dask_jobqueue import SLURMCluster
 from distributed import Client
+
+import meshjig
 
 dask.config.set(
     {"distributed.scheduler.allowed-failures": 100, "distributed.scheduler.worker-ttl": "5 minutes"}

@@ -3,9 +3,10 @@
 pip install 'meshjig[batch,s3]' dask-kubernetes; the operator of dask-kubernetes has to run in the cluster.
 """
 
-import meshjig
 from dask_kubernetes.operator import KubeCluster, make_cluster_spec
 from distributed import Client
+
+import meshjig
 
 SETTINGS = {
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "100",
