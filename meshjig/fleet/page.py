@@ -7,6 +7,7 @@ from html import escape
 from pathlib import Path
 from urllib.parse import quote
 
+from meshjig.errors import printable
 from meshjig.fleet.record import FAILED, Record
 from meshjig.fleet.tally import Tally
 from meshjig.fleet.thumbnail import thumbnail_name
@@ -113,4 +114,4 @@ def _link(name: str) -> str:
 
 
 def _shown(text: str) -> str:
-    return text.encode("utf-8", "backslashreplace").decode()
+    return printable(text.encode("utf-8", "backslashreplace").decode())

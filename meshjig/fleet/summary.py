@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
+from meshjig.errors import printable
 from meshjig.fleet.record import Record
 
 __all__ = ["write_csv", "write_parquet"]
@@ -21,7 +22,7 @@ def _row(record: Record) -> dict[str, object]:
         "source": record.source,
         "outcome": record.outcome,
         "kind": record.kind,
-        "sentence": record.sentence,
+        "sentence": printable(record.sentence),
         "stage": record.stage,
         "exit": record.exit,
         "signal": record.signal,

@@ -9,7 +9,7 @@ from pathlib import Path
 __all__ = ["FOLDER", "thumbnail", "thumbnail_name"]
 
 FOLDER = "thumbnails"
-_SIZE = (240, 120)  # pixels at most
+_SIZE = (224, 224)  # pixels at most
 
 
 def thumbnail_name(name: str) -> str:

@@ -13,7 +13,7 @@ from tests.fleet.scans import failed, made
 
 RECORDS = [
     made("one", shows=("viewer.html",), seconds=1.5),
-    failed("<b>bad</b> & 'worse'", message="<script>alert(1)</script>"),
+    failed("<b>bad</b> & 'worse'", message="<script>alert(1)</script>\x1b[31m"),
     made("dir/t w\u00f6", outcome="broken", exit=3, broken=("gap_mm",)),
     failed("\udce9late", kind="time-out", exit=None, attempts=2),
 ]
@@ -49,7 +49,7 @@ def test_the_table_has_a_row_a_scan(tmp_path):
         rows = list(csv.DictReader(file))
     assert [row["outcome"] for row in rows] == ["made", "failed", "broken", "failed"]
     assert (rows[0]["pieces"], rows[0]["y_mm"], rows[0]["seconds"]) == ("4", "2.0", "1.5")
-    assert rows[1]["sentence"] == "<script>alert(1)</script>: export it again"
+    assert rows[1]["sentence"] == "<script>alert(1)</script>\\x1b[31m: export it again"
     assert (rows[3]["attempts"], rows[3]["exit"]) == ("2", "")
 
 
@@ -67,6 +67,7 @@ def test_the_page_shows_failures_first_and_runs_nothing_of_a_name(tmp_path):
     )
     text = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "<script" not in text
+    assert "\x1b" not in text
     assert "&lt;b&gt;bad" in text
     assert text.index("Failed: 2") < text.index("broken promises: 1") < text.index("Made: 1")
     assert "time-out, 2 times" in text
