@@ -19,6 +19,8 @@ from batch_trials.long_list import long_list
 from batch_trials.mixed import mixed
 from batch_trials.throughput import throughput
 
+ROLES = ("client", "worker", "scheduler")
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(
