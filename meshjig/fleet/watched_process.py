@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 __all__ = ["Cancelled", "Ended", "GroupLimits", "run_watched"]
 
-_EVERY = 0.05  # s between two looks
+_EVERY = 0.05  # s; of so many of these:
+_LOOKS, _FINDS, _ASKS = 4, 8, 10  # one look at memory, one at who belongs to it, one whether anybody waits
 _PATIENCE = 1.5  # s that the command has to clear up once it is asked to end
 _SLACK = 1.1  # memory beyond which it is ended here: the command looks after its limit itself, and says more
 
@@ -101,19 +102,26 @@ class _Family:
 
     def __init__(self, leader: int) -> None:
         self.leader, self.peak, self.held = leader, 0, 0
-        self._members: dict[int, float] = {}  # process id -> when it began
+        self._members: dict[int, Any] = {}  # process id -> psutil.Process
+
+    def find(self) -> None:
+        """See who belongs to it; it takes a few milliseconds of the processor's time."""
+        import psutil
+
+        self._members = {pid: process for pid, process in self._members.items() if process.is_running()}
+        with suppress(psutil.Error):
+            leader = psutil.Process(self.leader)
+            found = [leader, *leader.children(recursive=True)]
+            self._members |= {process.pid: process for process in found}
 
     def look(self) -> None:
-        """Find who belongs to it, and how much memory they hold together, bytes."""
+        """Add up how much memory those hold that were found, bytes."""
         import psutil
 
         self.held = 0
-        with suppress(psutil.Error):
-            leader = psutil.Process(self.leader)
-            for process in (leader, *leader.children(recursive=True)):
-                with suppress(psutil.Error):
-                    self.held += process.memory_info().rss
-                    self._members[process.pid] = process.create_time()
+        for process in self._members.values():
+            with suppress(psutil.Error):
+                self.held += process.memory_info().rss
         self.peak = max(self.peak, self.held)
 
     def end(self) -> None:
@@ -134,11 +142,10 @@ class _Family:
         import psutil
 
         left = []
-        for pid, begun in self._members.items():
-            with suppress(psutil.Error):
-                process = psutil.Process(pid)
-                same = process.create_time() == begun  # else the number went to another
-                if same and pid != self.leader and process.status() != psutil.STATUS_ZOMBIE:
+        for process in self._members.values():
+            with suppress(psutil.Error):  # whose number went to another does not count as running
+                alive = process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+                if alive and process.pid != self.leader:
                     left.append(process)
         return left
 
@@ -148,12 +155,14 @@ def _wait(leader: int, family: _Family, limits: GroupLimits, cancelled: Callable
     end = time.monotonic() + limits.seconds
     turns, too_large = 0, 0
     while not _has_ended(leader):
-        if turns % 4 == 0:
+        if turns % _FINDS == 0:
+            family.find()
+        if turns % _LOOKS == 0:
             family.look()
             too_large = too_large + 1 if family.held > limits.memory * 1e9 * _SLACK else 0
             if too_large > 1:
                 return "memory"
-        if turns % 10 == 9 and cancelled():
+        if turns % _ASKS == _ASKS - 1 and cancelled():
             return "cancelled"
         if time.monotonic() > end:
             return "time"

@@ -25,8 +25,7 @@ def throughput(work: Path, n_scans: int, faces: int) -> bool:
     subprocess.run(words, check=False)
     by_batch = time.monotonic() - begun
     made = [len(list((work / name).glob("*/report.json"))) for name in ("by-xargs", "by-batch")]
-    print(
-        f"{made} made; xargs {by_xargs:.0f} s, batch {by_batch:.0f} s, {by_xargs / by_batch:.3f} times as fast"
-    )
+    ratio = f"{by_xargs / by_batch:.3f} times as fast"
+    print(f"{made} made; xargs {by_xargs:.0f} s, batch {by_batch:.0f} s, {ratio}")
     print(f"load of the machine: {before:.1f} before, {os.getloadavg()[0]:.1f} in the end")
     return by_xargs >= 0.95 * by_batch and made == [n_scans, n_scans]
