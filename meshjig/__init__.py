@@ -23,7 +23,7 @@ from meshjig.errors import (
 # __init__.pyi tells type checkers the same; a test holds the two together
 _HOMES = {
     "Atlas": "meshjig.mesh.types",
-    "BatchSettings": "meshjig.fleet.batch",
+    "BatchSettings": "meshjig.fleet.settings",
     "CutMesh": "meshjig.mesh.types",
     "MappedAtlas": "meshjig.charts",
     "Mesh": "meshjig.mesh.types",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -71,11 +70,10 @@ def batch(
     """
     set_verbosity(verbose, quiet)
     given = read_given(config, flags)
-    if os.name != "posix":
-        raise OptionError("batch needs process groups, which Windows has not", hint="run it under WSL")
     if not output or output.startswith("--"):
         raise OptionError("batch needs a folder for its puzzles", hint="give one with -o DIR")
-    from meshjig.fleet.batch import Batch, BatchSettings
+    from meshjig.fleet.batch import Batch
+    from meshjig.fleet.settings import BatchSettings
 
     if shard is not None and (workers or scheduler or scheduler_file):
         raise OptionError("--shard works one after another, without a cluster", hint="leave out one of them")
@@ -121,7 +119,7 @@ def _room(memory: float) -> int:
 
 
 def _shard(text: str | None) -> Any:
-    from meshjig.fleet.batch import Shard
+    from meshjig.fleet.settings import Shard
 
     if text is None:
         return Shard()

@@ -6,62 +6,30 @@ import os
 from array import array
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any, Unpack, cast
 
 from meshjig.errors import InputError, OptionError
-from meshjig.fleet.inputs import Entry, count_rows, entries, expand, read_list
+from meshjig.fleet.inputs import Entry, entries, expand
 from meshjig.fleet.journal import Journal
+from meshjig.fleet.lists import count_rows, read_list
 from meshjig.fleet.on_dask import make_on_worker, on_dask
 from meshjig.fleet.one_by_one import one_by_one
 from meshjig.fleet.places import file_name, is_url
 from meshjig.fleet.record import Record, failed_by_machine
 from meshjig.fleet.results import write_results
+from meshjig.fleet.settings import BatchSettings, Shard
 from meshjig.fleet.tally import Tally
 from meshjig.fleet.task import Drawing, Task, Terms, drawing_of
 from meshjig.options import EITHER, OptionKeywords, Options
 from meshjig.runtime.version import meshjig_version
 
-__all__ = ["Batch", "BatchSettings", "Shard", "batch"]
+__all__ = ["Batch", "batch"]
 
 _MEMORY = 4.0  # GB that a scan may take where nothing is said
 _NOWHERE = 2**64 - 1  # stands for a scan that nothing was written of
-
-
-@dataclass(frozen=True)
-class Shard:
-    """A share of a batch: every n-th scan."""
-
-    number: int = 1  # from 1
-    of: int = 1
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.number <= self.of:
-            raise OptionError(f"--shard: {self.number}/{self.of} is no share", hint="give 1/8 to 8/8")
-
-    def name(self, name: str) -> str:
-        """Give the name of a file that each share has for itself."""
-        stem, dot, suffix = name.partition(".")
-        return name if self.of == 1 else f"{stem}-{self.number}-of-{self.of}{dot}{suffix}"
-
-
-@dataclass(frozen=True)
-class BatchSettings:
-    """How a batch is worked through; what is made is said by the options."""
-
-    listed: Path | None = None  # a list of scans, .txt, .csv or .parquet
-    timeout: float = 900.0  # s that a scan may take
-    retries: int = 1  # of what fails by the machine: a signal, a lost worker, a limit of time or memory
-    window: int = 1000  # scans that the scheduler knows of at a time
-    shard: Shard = Shard()
-    journal: Path | None = None  # in the folder of the batch if not given
-
-    def __post_init__(self) -> None:
-        for name, least in (("timeout", 0.1), ("retries", 0), ("window", 1)):
-            if not getattr(self, name) >= least:
-                raise OptionError(f"--{name}: {getattr(self, name):g} is too small", hint=f"give {least:g}")
 
 
 class Batch:
@@ -91,6 +59,8 @@ class Batch:
     ) -> None:
         self.client, self.settings, self.tally = client, settings, Tally()
         options = Options.of(**given)
+        if os.name != "posix":
+            raise OptionError("batch needs process groups, which Windows has not", hint="run it under WSL")
         self.out = out if is_url(out) else os.path.abspath(out)
         if os.path.lexists(self.out) and not os.path.isdir(self.out) and not is_url(out):
             raise OptionError(f"{out} is a file, not a folder", hint="choose another with -o")

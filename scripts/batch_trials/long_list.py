@@ -9,7 +9,8 @@ import psutil
 
 _CLIENT = """
 import sys, time
-from meshjig.fleet.batch import Batch, BatchSettings
+from meshjig.fleet.batch import Batch
+from meshjig.fleet.settings import BatchSettings
 from meshjig.fleet.cluster import local_cluster
 from pathlib import Path
 from batch_trials.long_list import nothing

@@ -8,7 +8,8 @@ import pytest
 from meshjig.errors import InputError, OptionError, OutputError
 from meshjig.fleet import batch as module
 from meshjig.fleet import one_by_one
-from meshjig.fleet.batch import Batch, BatchSettings, Shard, batch
+from meshjig.fleet.batch import Batch, batch
+from meshjig.fleet.settings import BatchSettings, Shard
 from tests.fleet.scans import failed, made
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="Windows has no process groups")
