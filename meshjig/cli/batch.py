@@ -108,6 +108,8 @@ def _cluster(
 
     there = scheduler or scheduler_file
     with connected(scheduler, scheduler_file) if there else local_cluster(workers) as client:
+        if there and not client.nthreads():
+            say(f"meshjig: note: the scheduler at {there} has no workers yet; they may come")
         yield client
 
 

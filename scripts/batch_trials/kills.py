@@ -38,7 +38,9 @@ def kills(work: Path, role: str, n_scans: int, n_kills: int, seed: int) -> bool:
         wrong += [f"{name} was made again" for name, inode in finished.items() if done.get(name) != inode]
         finished |= done
     print(f"{len(finished)} of {n_scans} are done", flush=True)
-    last = subprocess.run([*_words(work, out), "--workers", "2", "--json"], capture_output=True, text=True)
+    words = [*_words(work, out), "--workers", "2", "--json"]
+    environment = os.environ | {"TMPDIR": str(work / "tmp")}
+    last = subprocess.run(words, capture_output=True, text=True, env=environment, check=False)
     print(f"to the end: exit {last.returncode}: {json.loads(last.stdout)}")
     if last.returncode:
         wrong.append(last.stderr)
