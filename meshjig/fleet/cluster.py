@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.machinery import PathFinder
@@ -27,8 +28,10 @@ _SETTINGS = {
     "distributed.scheduler.worker-ttl": "5 minutes",
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.limit": "60s",
+    "distributed.deploy.lost-worker-timeout": "5s",  # after which it may be replaced
 }
 _TIMEOUT = 30  # s to find a scheduler
+_MENDING = 2.0  # s between two looks whether all workers are there
 
 
 @contextmanager
@@ -56,6 +59,7 @@ def local_cluster(workers: int) -> Iterator[Any]:
             local_directory=str(scratch),
         ) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
+        _kept_whole(cluster, workers),
     ):
         yield client
 
@@ -104,6 +108,34 @@ def _imported() -> tuple[Any, Any]:
     for name in ("distributed", "tornado", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     return dask, distributed
+
+
+@contextmanager
+def _kept_whole(cluster: Any, workers: int) -> Iterator[None]:
+    """Put new workers in the place of those that are lost for good.
+
+    Dask begins a worker anew that dies, but not one that dies as it begins; then nobody would do the work.
+    """
+    over = threading.Event()
+
+    def mend() -> None:
+        for name, nanny in list(cluster.workers.items()):
+            if nanny.status.name in ("closed", "failed"):
+                del cluster.workers[name]
+        cluster.scale(workers)
+
+    def watch() -> None:
+        while not over.wait(_MENDING):
+            if len(cluster.scheduler_info["workers"]) < workers:
+                cluster.loop.add_callback(mend)
+
+    keeper = threading.Thread(target=watch, daemon=True)
+    keeper.start()
+    try:
+        yield
+    finally:
+        over.set()
+        keeper.join()
 
 
 @contextmanager

@@ -105,6 +105,21 @@ def test_a_scan_whose_worker_dies_is_made_by_the_next(client, tmp_path):
     assert record == made("one")
 
 
+@pytest.mark.slow
+def test_workers_that_die_as_they_begin_are_replaced():
+    with local_cluster(2) as client:
+        end, n_killed = time.monotonic() + 5, 0
+        while time.monotonic() < end:
+            for process in psutil.Process().children(recursive=True):
+                if "spawn_main" in " ".join(process.cmdline()):
+                    process.kill()
+                    n_killed += 1
+            time.sleep(0.1)
+        assert n_killed > 2
+        done = [record for _, record in on_dask(client, tasks(["one", "two"]), 5, nothing)]
+    assert {record.name for record in done} == {"one", "two"}
+
+
 CLIENT = """
 import sys
 from meshjig.fleet.cluster import connected
