@@ -104,8 +104,6 @@ def test_a_scan_goes_from_a_bucket_to_a_bucket(bucket, tmp_path, monkeypatch):
     )
     again = make_scan(asked)
     assert (again.kept, again.marks) == (True, record.marks)
-    files.pipe(f"{root}/deep/ball/pieces/piece_001.stl", b"damaged")
-    assert not make_scan(asked).kept
     assert not list(tmp_path.iterdir())
     gone = make_scan(task(f"{bucket}/in/none.ply", f"{bucket}/out"))
     assert (gone.kind, gone.exit) == ("input", 4)
