@@ -23,6 +23,7 @@ from meshjig.errors import (
 # __init__.pyi tells type checkers the same; a test holds the two together
 _HOMES = {
     "Atlas": "meshjig.mesh.types",
+    "BatchSettings": "meshjig.fleet.settings",
     "CutMesh": "meshjig.mesh.types",
     "MappedAtlas": "meshjig.charts",
     "Mesh": "meshjig.mesh.types",
@@ -31,6 +32,7 @@ _HOMES = {
     "Piece": "meshjig.puzzle",
     "Puzzle": "meshjig.puzzle",
     "atlas": "meshjig.pipeline.prepare",
+    "batch": "meshjig.fleet.batch",
     "build_atlas": "meshjig.charts",
     "cell_atlas": "meshjig.cells",
     "displacement": "meshjig.solid",
@@ -71,7 +73,7 @@ def __getattr__(name: str) -> object:
     if name == "check":
         return importlib.import_module("meshjig.check")
     if name == "__version__":
-        from meshjig.pipeline.report import meshjig_version
+        from meshjig.runtime.version import meshjig_version
 
         return meshjig_version()
     raise AttributeError(f"module 'meshjig' has no attribute {name!r}")

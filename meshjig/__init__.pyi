@@ -15,6 +15,8 @@ from meshjig.errors import OptionError as OptionError
 from meshjig.errors import OutputError as OutputError
 from meshjig.errors import ResourceError as ResourceError
 from meshjig.errors import SolidError as SolidError
+from meshjig.fleet.batch import batch as batch
+from meshjig.fleet.settings import BatchSettings as BatchSettings
 from meshjig.layout.stitch import stitch as stitch
 from meshjig.mesh.types import Atlas as Atlas
 from meshjig.mesh.types import CutMesh as CutMesh

@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 from meshjig.errors import did_you_mean
 from meshjig.option_errors import option_error, refused, shown_value, spelling
 
-__all__ = ["PROCESSES", "OptionKeywords", "Options"]
+__all__ = ["EITHER", "PROCESSES", "OptionKeywords", "Options"]
 
 Preset = dict[str, Any]
 
@@ -25,6 +25,7 @@ PROCESSES: dict[str, Preset] = {
 
 OF_TILES = {"angle", "charts", "pole", "random_style", "tile"}
 OF_CELLS = {"crease_aware", "style"}
+EITHER = {"pieces": "piece_size", "piece_size": "pieces"}  # who gives one takes back the other
 LONGEST = 100_000.0  # mm
 _MOST_SEED = 2**63 - 1
 
@@ -67,6 +68,7 @@ class OptionKeywords(TypedDict, total=False):
     stitch: float | None
     cavities: bool | None
     memory: float | None
+    cores: int | None
     labels: bool | None
     core: bool | None
     seed: int | None
@@ -176,6 +178,9 @@ class Options(BaseModel):
     )
     memory: FiniteFloat | None = Field(
         None, gt=0, description="limit of memory, GB: what would take more ends in a sentence"
+    )
+    cores: int | None = Field(
+        None, ge=1, le=4096, description="cores to use; 1: no second process; all if not given"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
     labels: bool = Field(False, description="engrave the number of every piece into its inner side")

@@ -13,6 +13,7 @@ from meshjig.output import piece as named
 from meshjig.output.files.curve_files import Curves
 from meshjig.output.files.read_pieces import read_puzzle_files
 from meshjig.output.save import Outputs, save_puzzle
+from meshjig.runtime.cores import use_cores
 
 __all__ = ["Curves", "Piece", "Puzzle"]
 
@@ -97,9 +98,10 @@ class Puzzle:
             guide and asked.get("guide", True),
             **{key: asked[key] for key in ("plate", "nest", "explode", "turntable") if key in asked},
         )
-        written = save_puzzle(
-            directory, self.pieces, self.report, outputs, curves=self.curves, core=self.core
-        )
+        with use_cores(asked.get("cores")):
+            written = save_puzzle(
+                directory, self.pieces, self.report, outputs, curves=self.curves, core=self.core
+            )
         self.report.update(written)
         return Path(directory)
 

@@ -24,6 +24,7 @@ ROOT = Path(meshjig.__file__).parent.parent
 EXPORTED = set(
     [
         "Atlas",
+        "BatchSettings",
         "ChartError",
         "CutError",
         "CutMesh",
@@ -41,6 +42,7 @@ EXPORTED = set(
         "SolidError",
         "__version__",
         "atlas",
+        "batch",
         "build_atlas",
         "cell_atlas",
         "check",

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from meshjig.cli.batch import batch
 from meshjig.cli.config import read_options
 from meshjig.cli.endings import BROKEN_PROMISE, EPILOG, Ending, broken_promises
-from meshjig.cli.flags import Flags, takes_options
+from meshjig.cli.flags import AsJson, Config, Flags, Quiet, Verbose, takes_options
 from meshjig.cli.lines import as_lines
 from meshjig.cli.streams import emit, say, set_verbosity
 from meshjig.cli.terminal import progress_bar, tell_each, tell_next_step, tell_notes
 from meshjig.errors import OptionError
 from meshjig.options import Options
 from meshjig.runtime.bounded import ReadAhead
+from meshjig.runtime.cores import cores, thread_limits
 
 __all__ = ["app"]
 
@@ -32,14 +35,6 @@ app = typer.Typer(
 )
 
 MeshPath = Annotated[str, typer.Argument(metavar="MESH", help="STL, OBJ, PLY, OFF, glTF, GLB or 3MF file")]
-Config = Annotated[
-    Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
-]
-AsJson = Annotated[
-    bool, typer.Option("--json", help="print the result, or the failure, as JSON on standard output")
-]
-Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
 
 
 @app.callback(invoke_without_command=True)
@@ -48,7 +43,7 @@ def _root(
     show_version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
 ) -> None:
     if show_version:
-        from meshjig.pipeline.report import meshjig_version
+        from meshjig.runtime.version import meshjig_version
 
         emit(meshjig_version())
         raise typer.Exit
@@ -82,7 +77,7 @@ def make(
     set_verbosity(verbose, quiet)
     options = read_options(config, flags)
     _refuse_no_name(mesh)
-    _watch(options)
+    _limit(options)
     if dry_run:
         from meshjig.pipeline.plan import plan_puzzle
 
@@ -135,7 +130,7 @@ def info(
     flags |= {} if method is None else {"charts": method}
     options = read_options(None, flags, spelt={"charts": "method"})
     _refuse_no_name(mesh)
-    _watch(options)
+    _limit(options)
     if charts or method or output:
         from meshjig.pipeline.prepare import describe_charts
 
@@ -251,8 +246,14 @@ def tiles(
     emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 
-def _watch(options: Options) -> None:
-    """Keep the run within the limit of memory that was given, if one was."""
+app.command()(takes_options()(batch))
+
+
+def _limit(options: Options) -> None:
+    """Keep the run within the limits of cores and of memory that were given, if any was."""
+    if options.cores is not None:
+        os.environ |= thread_limits(options.cores)  # before the libraries that read it are loaded
+    cores()  # refuses what the environment says, if that is no number
     if options.memory is not None:
         from meshjig.runtime.memory import watch_memory
 

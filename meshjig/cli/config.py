@@ -11,16 +11,13 @@ from pathlib import Path
 from meshjig.cli.flags import Flags
 from meshjig.errors import OptionError
 from meshjig.option_errors import spelling
-from meshjig.options import Options
+from meshjig.options import EITHER, Options
 from meshjig.runtime.bounded import Bounded, Limits, OutOfBounds
 
-__all__ = ["parse_toml", "read_options"]
+__all__ = ["parse_toml", "read_given", "read_options"]
 
 _EXAMPLE = 'a line of it is such as pieces = 30, or join = "round"'
 _LIMITS = Limits(memory=200e6, seconds=3.0)
-
-
-_EITHER = {"pieces": "piece_size", "piece_size": "pieces"}  # of these a flag takes the place of the other
 
 
 def read_options(config: Path | None, flags: Flags, spelt: Mapping[str, str] | None = None) -> Options:
@@ -42,12 +39,20 @@ def read_options(config: Path | None, flags: Flags, spelt: Mapping[str, str] | N
     OptionError
         An option is wrong, or the file is; the sentence names the flag, or the file and its key.
     """
+    return Options.of(**read_given(config, flags, spelt))
+
+
+def read_given(config: Path | None, flags: Flags, spelt: Mapping[str, str] | None = None) -> Flags:
+    """Give the options of a TOML file and of flags that are no defaults, once they are known to be right.
+
+    Parameters and errors are those of `read_options`.
+    """
     given: Flags = {}
     if config is not None:
         given = {key.replace("-", "_"): value for key, value in _read_toml(config).items()}
         if isinstance(given.get("process"), dict):  # [process.NAME], chosen by --process
             given["processes"] = given.pop("process")
-    given = {key: value for key, value in given.items() if _EITHER.get(key) not in flags}
+    given = {key: value for key, value in given.items() if EITHER.get(key) not in flags}
     try:
         options = Options.of(**given | flags)
         if {"tile", "plate"} & (given.keys() | flags.keys()):
@@ -56,7 +61,7 @@ def read_options(config: Path | None, flags: Flags, spelt: Mapping[str, str] | N
             refuse_unknown_names(options)
     except OptionError as error:
         raise _located(error, config, flags, spelt or {}) from None
-    return options
+    return given | flags
 
 
 def _located(error: OptionError, config: Path | None, flags: Flags, spelt: Mapping[str, str]) -> OptionError:

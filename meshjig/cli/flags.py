@@ -7,6 +7,7 @@ import inspect
 import re
 import typing
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import typer
@@ -14,9 +15,18 @@ import typer
 from meshjig.option_errors import choices, spelling
 from meshjig.options import PROCESSES, Options
 
-__all__ = ["Flags", "flag", "takes_options"]
+__all__ = ["AsJson", "Config", "Flags", "Quiet", "Verbose", "flag", "takes_options"]
 
 Flags = dict[str, Any]  # options by their names, those that were given
+
+Config = Annotated[
+    Path | None, typer.Option("--config", metavar="FILE.toml", help="read options from a TOML file")
+]
+AsJson = Annotated[
+    bool, typer.Option("--json", help="print the result, or the failure, as JSON on standard output")
+]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="say more")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="say nothing but errors")]
 
 Command = Callable[..., None]
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from meshjig.cli.endings import Ending
 
-__all__ = ["run_in_front"]
+__all__ = ["run_for", "run_in_front"]
 
 _LEAST_SPACE = 1e9  # bytes of address space; with 0.4e9 libraries wait for threads that can't start
 _CRASHES = {"SIGSEGV": "a segmentation fault", "SIGABRT": "an abort", "SIGBUS": "a bus error"}
@@ -26,6 +26,23 @@ _SHOW_CURSOR = b"\r\x1b[K\x1b[?25h"  # a progress line may have hidden it
 
 _asked_by = 0  # the signal that asked for the end
 _run = 0  # the process id of the run
+_owner = 0  # the process that the run ends with, where there is one
+_scratch = ""  # a folder that goes with the owner
+
+
+def run_for(owner: str, scratch: str, *words: str) -> NoReturn:
+    """Run the command line for a process that may itself be killed at any moment.
+
+    Called in a process that leads a group of its own. Once the owner is gone, the run is ended as by a
+    signal, then whatever else is left of the group, and the scratch folder with it.
+    """
+    global _owner, _scratch
+    from meshjig.runtime.interpreter import end_with_parent
+
+    _owner, _scratch, sys.argv[1:] = int(owner), scratch, words
+    signal.signal(signal.SIGHUP, _end_the_run)
+    end_with_parent(_owner, signal.SIGHUP)
+    run_in_front()
 
 
 def run_in_front() -> NoReturn:
@@ -86,11 +103,13 @@ def _leave(reading: int, status: int) -> NoReturn:
     ended = [int(value) for word, value in told if word == "ended"]
     number = _asked_by or (os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0)
     if ended and not _asked_by:
-        os._exit(ended[-1])
+        _exit(ended[-1])
     if os.isatty(2):
         os.write(2, _SHOW_CURSOR)
     for target in targets:
         written |= {target} if _clear_up(target) else set()
+    for folder in [str(value) for word, value in told if word == "scratch"]:
+        _remove(folder)
     for parent in [str(value) for word, value in told if word == "parent"][::-1]:
         try:
             os.rmdir(parent)
@@ -105,6 +124,7 @@ def _tell_ending(number: int, written: list[str], told: dict[str, str | int]) ->
 
     name = signal.Signals(number).name if number else "an exit of its own"  # as some libraries have it
     done = f"{', '.join(written)} is whole" if written else "nothing was written"
+    done = str(told.get("lasting", done))
     stage = str(told["stage"]) if "stage" in told else None
     short = told.get("memory") or _short_of_address_space(name)
     if _asked_by or name in ("SIGTERM", "SIGHUP", "SIGINT"):
@@ -114,7 +134,8 @@ def _tell_ending(number: int, written: list[str], told: dict[str, str | int]) ->
         ending = Ending("resources", f"{short}; {done}", hint, stage, NO_RESOURCES)
     elif name == "SIGKILL":
         message = f"the run was killed, perhaps for want of memory; {done}"
-        ending = Ending("killed", message, "use fewer faces (--faces)", stage, CUT_OFF + number)
+        hint = "" if "lasting" in told else "use fewer faces (--faces)"
+        ending = Ending("killed", message, hint, stage, CUT_OFF + number)
     else:
         message = f"native code ended by {_CRASHES.get(name, name)}; {done}"
         ending = Ending("bug", message, "this is a bug, -v shows where", stage, BUG)
@@ -128,7 +149,21 @@ def _end(ending: Ending, answered: bool = False) -> NoReturn:
     _write(2, f"meshjig: {ending.sentence}\n")
     if wants_json(sys.argv[1:]) and not answered:
         _write(1, ending.as_json() + "\n")
-    os._exit(ending.exit)
+    _exit(ending.exit)
+
+
+def _exit(code: int) -> NoReturn:
+    """End this process; where its owner is gone, with all that it leads."""
+    if _owner and (_asked_by == signal.SIGHUP or os.getppid() != _owner):
+        _remove(_scratch)
+        os.killpg(0, signal.SIGKILL)
+    os._exit(code)
+
+
+def _remove(folder: str) -> None:
+    from shutil import rmtree
+
+    rmtree(folder, ignore_errors=True)
 
 
 def _refuse_little_memory() -> None:

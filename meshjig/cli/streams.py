@@ -10,7 +10,7 @@ from contextlib import suppress
 from typing import TextIO
 
 from meshjig.errors import printable, write_error
-from meshjig.runtime.messages import folders_written, tell
+from meshjig.runtime.messages import folders_written, lasting, tell
 
 __all__ = ["ask_libraries_to_be_quiet", "emit", "error_stream", "outcome", "say", "set_verbosity"]
 
@@ -88,6 +88,8 @@ def emit(text: str) -> None:
 def outcome() -> str:
     """Say what this run has written, after a sentence on why it ends."""
     folders = folders_written()
+    if lasting():
+        return lasting()
     return f"{', '.join(folders)} is whole" if folders else "nothing was written"
 
 

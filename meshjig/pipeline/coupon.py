@@ -16,7 +16,7 @@ from meshjig.output.folder import replace_folder
 from meshjig.output.pictures.colours import colours
 from meshjig.output.piece import Piece
 from meshjig.output.report import Report
-from meshjig.pipeline.report import meshjig_version
+from meshjig.runtime.version import meshjig_version
 from meshjig.solid.printable import printable
 from meshjig.tiling.template import classic
 

@@ -31,6 +31,7 @@ from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.verify import verify
 from meshjig.pipeline.work_mesh import work_atlas, work_mesh
 from meshjig.puzzle import Curves, Piece, Puzzle
+from meshjig.runtime.cores import use_cores
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
@@ -74,8 +75,11 @@ def make_puzzle(
     """
     options = checked_options(options, keywords)
     refuse_unknown_names(options)
-    pictures = StagePictures(debug_dir)
-    stages = Stages(progress)
+    with use_cores(options.cores):
+        return _make(mesh, options, Stages(progress), StagePictures(debug_dir))
+
+
+def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) -> Puzzle:
     with stages("scan"):
         scan = clean_scan(mesh, options)
         up = pictures.up = up_direction(options.up, scan)

@@ -17,8 +17,8 @@ from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
 from meshjig.pipeline.preflight import checked_options, piece_size
-from meshjig.pipeline.report import meshjig_version
 from meshjig.pipeline.up import AUTO, up_axis
+from meshjig.runtime.version import meshjig_version
 from meshjig.scan import Floor, Preparation, Scan, read_scan
 from meshjig.scan.fill import fill_holes
 from meshjig.scan.notes import open_borders_note

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
@@ -23,22 +22,15 @@ from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
 from meshjig.pipeline.notes import core_notes, lock_note
 from meshjig.pipeline.verify import Mended
+from meshjig.runtime.version import meshjig_version
 from meshjig.scan import Scan
 from meshjig.solid.kerf import KerfFacts
 from meshjig.solid.offset_sheet import ShellFacts
 
-__all__ = ["Made", "assemble_report", "meshjig_version", "told"]
+__all__ = ["Made", "assemble_report", "told"]
 
 MOST_AREA_ERROR = 1e-6
 MOST_DISCARDED = 1e-3
-
-
-def meshjig_version() -> str:
-    """Give the installed version."""
-    try:
-        return version("meshjig")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def told(facts: Any) -> Report:

@@ -9,6 +9,7 @@ import sys
 __all__ = ["end_with_parent", "interpreter_command"]
 
 _DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of prctl(2)
+_KILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has no SIGKILL
 _EVERY = 0.5  # s between two looks, where the system does not tell
 
 _BOOT = """
@@ -66,12 +67,13 @@ def _current_folder() -> str:
         return ""
 
 
-def end_with_parent(parent: int) -> None:
+def end_with_parent(parent: int, number: int = _KILL) -> None:
     """Have this process killed as soon as its parent is gone, whatever it does then.
 
     Parameters
     ----------
     parent : int, process id
+    number : int, the signal that it gets then; one that it catches leaves it time to clear up
 
     Notes
     -----
@@ -81,20 +83,20 @@ def end_with_parent(parent: int) -> None:
     if sys.platform == "linux":
         import ctypes
 
-        ctypes.CDLL(None).prctl(_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
+        ctypes.CDLL(None).prctl(_DEATH_SIGNAL, number, 0, 0, 0)
         if os.getppid() != parent:  # it was gone before it could be watched
-            os._exit(1)
+            os.kill(os.getpid(), number)
         return
     import threading
 
-    threading.Thread(target=_watch, args=[parent], daemon=True).start()
+    threading.Thread(target=_watch, args=[parent, number], daemon=True).start()
 
 
-def _watch(parent: int) -> None:
+def _watch(parent: int, number: int) -> None:
     import time
 
     import psutil
 
     while os.getppid() == parent and psutil.pid_exists(parent):
         time.sleep(_EVERY)
-    os._exit(1)
+    os.kill(os.getpid(), number)

@@ -6,11 +6,12 @@ import json
 import os
 from collections.abc import Iterator
 
-__all__ = ["folders_written", "read_messages", "stage_under_way", "tell", "tell_through"]
+__all__ = ["folders_written", "lasting", "read_messages", "stage_under_way", "tell", "tell_through"]
 
 _pipe: int | None = None
 _written: list[str] = []
 _stages: list[str] = []
+_lasting: list[str] = []
 
 
 def tell_through(pipe: int) -> None:
@@ -25,12 +26,16 @@ def tell(word: str, value: str | int) -> None:
 
     The messages are ``target``, a folder that is to be replaced; ``parent``, a folder that is made for one;
     ``written``, a target that is in place, whole; ``stage``, one that begins; ``answered``, once something
-    is printed on standard output; ``ended``, with the exit code.
+    is printed on standard output; ``ended``, with the exit code;
+    ``scratch``, a folder that goes with the run, and
+    ``lasting``, what is there whenever a long run ends, as part of a sentence.
     """
     if word == "stage":
         _stages.append(str(value))
     if word == "written":
         _written.append(str(value))
+    if word == "lasting":
+        _lasting.append(str(value))
     if _pipe is not None:
         os.write(_pipe, json.dumps([word, value]).encode("ascii") + b"\n")
 
@@ -38,6 +43,11 @@ def tell(word: str, value: str | int) -> None:
 def folders_written() -> list[str]:
     """List the folders that this process has put in their places."""
     return list(_written)
+
+
+def lasting() -> str:
+    """Say what is there whenever this run ends; nothing where it has not said so."""
+    return _lasting[-1] if _lasting else ""
 
 
 def stage_under_way() -> str | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import pickle
 import sys
 import threading
@@ -10,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from meshjig.runtime.child import Child, idle_child, keep_idle, packed
+from meshjig.runtime.cores import cores
 
 __all__ = ["Background"]
 
@@ -37,7 +37,7 @@ class Background:
         self._cancelled = False
         self._thread: threading.Thread | None = None
         self._child: Child | None = None
-        if alone or (os.cpu_count() or 1) < 2 or not sys.executable:
+        if alone or cores() < 2 or not sys.executable:
             return
         try:
             # pickled here: a thread would wait for the caller's long calls of native code again and again

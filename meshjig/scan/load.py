@@ -30,6 +30,7 @@ class Loaded(NamedTuple):
     file: str | None  # None for what came as arrays, or from trimesh
     reader: str
     notes: list[str]  # what of the file was left out, a sentence each
+    sha256: str | None = None  # of the file
 
 
 def load(source: Any) -> Loaded:
@@ -58,7 +59,7 @@ def load(source: Any) -> Loaded:
     if isinstance(source, ReadAhead):
         read = _read(source)
         V, F = _checked(read.source, Path(source.path).name)
-        return Loaded(V, F, read.source, source.path, read.reader, read.notes)
+        return Loaded(V, F, read.source, source.path, read.reader, read.notes, read.sha256)
     if isinstance(source, tuple | list) and len(source) == 2:
         mesh = _from_arrays(*source)
         return Loaded(*_checked(mesh, "the mesh"), mesh, None, "arrays", [])

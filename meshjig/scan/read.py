@@ -34,6 +34,7 @@ class ScanFacts:
     """What a mesh is, and what was done to it: the report's ``input``."""
 
     file: str | None
+    sha256: str | None  # of the file's bytes
     reader: str
     notes: list[str]  # what of the file was left out, a sentence each
     faces: int  # as loaded
@@ -122,6 +123,7 @@ def read_scan(
     euler = len(V) - len(mesh.edges.E) + len(F)
     facts = ScanFacts(
         file=loaded.file,
+        sha256=loaded.sha256,
         reader=loaded.reader,
         notes=[*loaded.notes, *repair_notes(repairs), *notes],
         faces=len(loaded.F),

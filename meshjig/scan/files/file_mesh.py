@@ -17,3 +17,4 @@ class FileMesh(NamedTuple):
     notes: list[str]  # a sentence for everything that was left out
     announced: int = 0  # how many faces the file says it has, polygons as one
     found: int = 0  # how many of these were read
+    sha256: str = ""  # of the file's bytes; of those of files that it names, nothing

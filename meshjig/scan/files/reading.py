@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import stat
 import warnings
@@ -83,7 +84,9 @@ def read_file(name: str, by_pymeshlab: bool = True) -> FileMesh:
         check_kind(path, kind)
         check_whole(path, kind)
         with np.errstate(all="ignore"):
-            return _read(path, kind, by_pymeshlab and kind in _OF_PYMESHLAB)
+            read = _read(path, kind, by_pymeshlab and kind in _OF_PYMESHLAB)
+        with path.open("rb") as file:
+            return read._replace(sha256=hashlib.file_digest(file, "sha256").hexdigest())
     except OSError as error:
         raise InputError(f"{path} can't be opened ({error.strerror})") from None
 

@@ -1,0 +1,1 @@
+"""Trials of meshjig batch that take minutes: scripts/batch_trials.py runs them."""
