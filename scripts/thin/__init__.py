@@ -1,0 +1,1 @@
+"""What scripts/thin_trial.py measures."""
