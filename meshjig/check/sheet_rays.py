@@ -8,6 +8,7 @@ import numpy as np
 
 from meshjig.check.soup import area_samples, first_hit, smooth_regions, soup
 from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.halfedges import edges
 from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.rays import RayScene
 
@@ -18,6 +19,8 @@ _STRAIGHT = -0.95  # the same, of a ray from a sheet to another that lies along 
 _FACING = -0.8  # cosine between the normals of two walls that face each other
 _WALL_REACH = 1.0  # mm; a wall has another piece before it, no farther than this
 _WALL_SHARE = 0.5  # of a smooth region that faces other pieces, from which all of it is wall
+_FLAKE = 0.001  # of a piece's surface; smaller smooth regions beside a wall are of the wall
+_BROAD = 0.02  # of a piece's surface, that a smooth region has which is no flake of a wall
 _SAMPLES_A_PIECE = 1000
 
 
@@ -47,9 +50,9 @@ class SheetRays:
     """Pieces that are ready for rays.
 
     A point is before another piece when that has a face that turns towards it within 1 mm. A smooth region of
-    which half is so is a wall, with its corners, where nothing lies before it. The two inner sheets of a
-    limb lie before each other as walls do: a ray that comes straight to one from a sheet that is free
-    has met a sheet.
+    which half is so is a wall, with its corners, where nothing lies before it, and with what is tiny beside
+    it. The two inner sheets of a limb lie before each other as walls do: a ray that comes straight to one
+    from a broad region that is free has met a sheet.
 
     Parameters
     ----------
@@ -60,11 +63,20 @@ class SheetRays:
         self._soup = soup(pieces)
         self._scene = RayScene(self._soup.V, self._soup.F)
         self._spread = area_samples(self._soup, _SAMPLES_A_PIECE * len(pieces))
-        before, region = self._before(*self._spread), smooth_regions(self._soup)
+        s, region = self._soup, smooth_regions(self._soup)
+        before = self._before(*self._spread)
         n = int(region.max(initial=-1)) + 1
         asked = np.bincount(region[self._spread.face], minlength=n)
         faced = np.bincount(region[self._spread.face], before, minlength=n)
-        self._wall = (faced >= _WALL_SHARE * np.maximum(asked, 1))[region]
+        wall = faced >= _WALL_SHARE * np.maximum(asked, 1)
+        share = (
+            np.bincount(region, s.area)[region] / np.maximum(np.bincount(s.piece, s.area), 1e-300)[s.piece]
+        )
+        twin = edges(s.F).twin
+        beside = region[np.flatnonzero(wall[region[twin // 3]]) // 3]
+        flake = np.zeros(n, bool)
+        flake[beside] = True
+        self._wall, self._broad = wall[region] | (flake[region] & (share < _FLAKE)), share >= _BROAD
 
     def spread(self) -> Rays:
         """Send in rays that each stand for the same area, a thousand a piece as a mean."""
@@ -86,9 +98,9 @@ class SheetRays:
         way, turned = way[through], turned[through]
         end = P - way[:, None] * s.N[face]
         before = self._before(P, face), self._before(end, exit_face)
-        walls = [self._wall[at] | faced for at, faced in zip((face, exit_face), before, strict=True)]
-        straight = (walls[0] ^ walls[1]) & (turned <= _STRAIGHT)
-        sheet = ~(walls[0] | walls[1]) | straight
+        wall, across = self._wall[face] | before[0], self._wall[exit_face] | before[1]
+        broad = np.where(wall, self._broad[exit_face], self._broad[face])
+        sheet = ~(wall | across) | ((wall ^ across) & broad & (turned <= _STRAIGHT))
         return Rays(P, end, way, s.piece[face], ~(before[0] | before[1]), sheet)
 
     def _before(self, P: Floats, face: Ints) -> Bools:

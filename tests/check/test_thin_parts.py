@@ -1,11 +1,15 @@
 """Thin walls: a thousandth of a piece is found, and skins back to back; what is thin as the model is not."""
 
+import itertools
+
+import manifold3d
 import numpy as np
 import pytest
 
 from meshjig.check import ThinParts, judge
 from meshjig.mesh.mesh import Mesh
 from tests.check.pieces import box
+from tests.meshes import moved
 
 LEAST = 1.2
 
@@ -104,6 +108,26 @@ def test_the_corner_of_a_wall_where_nothing_lies_before_it_is_no_sheet():
     above = box([4, 0, 0], [40, 10, 2])
     above.V[:, 1] += np.where(above.V[:, 1] < 5, 0.8 + 2.4 / 40 * above.V[:, 0], 0.8 + 3)
     assert "thin_walls" not in judge([(V, F), below, above], min_wall=LEAST).failures
+
+
+def test_small_facets_at_the_corners_of_walls_are_no_sheets():
+    """A plate hardly thicker than the least wall, a tip cut off below each of its corners."""
+    tip, width = np.array([1.2, 1.2, 1.0]), 24.0
+    plate = manifold3d.Manifold.cube([width, width, 1.25], True)
+    for x, y in itertools.product((-1, 1), repeat=2):
+        inward = -np.array([x, y, -1]) / tip
+        corner = np.array([x * width, y * width, -1.25]) / 2
+        away = inward @ corner + 1.0
+        length = np.linalg.norm(inward)
+        plate = plate.trim_by_plane(inward / length, away / length)
+    cut = plate.to_mesh64()
+    beside = [
+        moved(box([-12, -12, -0.625], [12, 12, 0.625]), [24.2 * x, 24.2 * y, 0])
+        for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
+    ]
+    pieces = [(np.array(cut.vert_properties[:, :3]), cut.tri_verts.astype(np.int64)), *beside]
+    assert judge(pieces, min_wall=LEAST).ok
+    assert judge(pieces[:1], min_wall=LEAST).failures == {"thin_walls": ["piece_001"]}  # no walls, alone
 
 
 @pytest.mark.parametrize(("through", "blamed"), [((), True), (["piece_001", "piece_002"], False)])
