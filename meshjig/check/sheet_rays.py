@@ -64,11 +64,13 @@ class SheetRays:
         self._scene = RayScene(self._soup.V, self._soup.F)
         self._spread = area_samples(self._soup, _SAMPLES_A_PIECE * len(pieces))
         s, region = self._soup, smooth_regions(self._soup)
-        before = self._before(*self._spread)
         n = int(region.max(initial=-1)) + 1
-        asked = np.bincount(region[self._spread.face], minlength=n)
-        faced = np.bincount(region[self._spread.face], before, minlength=n)
-        wall = faced >= _WALL_SHARE * np.maximum(asked, 1)
+        every, middle = np.arange(len(s.F)), s.V[s.F].mean(axis=1)  # small regions hold no samples
+        at = np.append(self._spread.face, every)
+        weight = np.append(np.full(len(self._spread.face), s.area.sum() / len(self._spread.face)), s.area)
+        before = np.append(self._before(*self._spread), self._before(middle, every))
+        asked, faced = (np.bincount(region[at], x, minlength=n) for x in (weight, weight * before))
+        wall = faced >= _WALL_SHARE * np.maximum(asked, 1e-300)
         share = (
             np.bincount(region, s.area)[region] / np.maximum(np.bincount(s.piece, s.area), 1e-300)[s.piece]
         )
