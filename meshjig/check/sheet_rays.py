@@ -63,22 +63,8 @@ class SheetRays:
         self._soup = soup(pieces)
         self._scene = RayScene(self._soup.V, self._soup.F)
         self._spread = area_samples(self._soup, _SAMPLES_A_PIECE * len(pieces))
-        s, region = self._soup, smooth_regions(self._soup)
-        n = int(region.max(initial=-1)) + 1
-        every, middle = np.arange(len(s.F)), s.V[s.F].mean(axis=1)  # small regions hold no samples
-        at = np.append(self._spread.face, every)
-        weight = np.append(np.full(len(self._spread.face), s.area.sum() / len(self._spread.face)), s.area)
-        before = np.append(self._before(*self._spread), self._before(middle, every))
-        asked, faced = (np.bincount(region[at], x, minlength=n) for x in (weight, weight * before))
-        wall = faced >= _WALL_SHARE * np.maximum(asked, 1e-300)
-        share = (
-            np.bincount(region, s.area)[region] / np.maximum(np.bincount(s.piece, s.area), 1e-300)[s.piece]
-        )
-        twin = edges(s.F).twin
-        beside = region[np.flatnonzero(wall[region[twin // 3]]) // 3]
-        flake = np.zeros(n, bool)
-        flake[beside] = True
-        self._wall, self._broad = wall[region] | (flake[region] & (share < _FLAKE)), share >= _BROAD
+        region, share = self._regions()
+        self._wall, self._broad = self._walls(region, share)[region], (share >= _BROAD)[region]
 
     def spread(self) -> Rays:
         """Send in rays that each stand for the same area, a thousand a piece as a mean."""
@@ -104,6 +90,26 @@ class SheetRays:
         broad = np.where(wall, self._broad[exit_face], self._broad[face])
         sheet = ~(wall | across) | ((wall ^ across) & broad & (turned <= _STRAIGHT))
         return Rays(P, end, way, s.piece[face], ~(before[0] | before[1]), sheet)
+
+    def _regions(self) -> tuple[Ints, Floats]:
+        """Give the smooth region of each face, (m,), and which share of its piece each region is, (n,)."""
+        s, region = self._soup, smooth_regions(self._soup)
+        whole = np.maximum(np.bincount(s.piece, s.area), 1e-300)
+        return region, np.asarray(np.bincount(region, s.area / whole[s.piece]), np.float64)
+
+    def _walls(self, region: Ints, share: Floats) -> Bools:
+        """Mark the smooth regions that are walls, (n,) bool."""
+        s, (P, face), n = self._soup, self._spread, len(share)
+        every, middle = np.arange(len(s.F)), s.V[s.F].mean(axis=1)  # for regions too small for a sample
+        at = region[np.append(face, every)]
+        weight = np.append(np.full(len(P), s.area.sum() / len(P)), s.area)
+        before = np.append(self._before(P, face), self._before(middle, every))
+        wall = np.bincount(at, weight * before, n) >= _WALL_SHARE * np.maximum(
+            np.bincount(at, weight, n), 1e-300
+        )
+        touching = np.zeros(n, bool)
+        touching[region[np.flatnonzero(wall[region[edges(s.F).twin // 3]]) // 3]] = True
+        return np.asarray(wall | (touching & (share < _FLAKE)))
 
     def _before(self, P: Floats, face: Ints) -> Bools:
         """Tell which points of the surface have another piece right before them, (k,) bool."""
