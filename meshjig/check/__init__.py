@@ -8,12 +8,14 @@ from meshjig.check.judge import Verdict, judge
 from meshjig.check.overlap import Overlaps, overlaps
 from meshjig.check.self_intersection import crossing_depth, self_intersections
 from meshjig.check.thickness import Thickness, measure_thickness
+from meshjig.check.thin_parts import ThinParts
 
 __all__ = [
     "CoreChecks",
     "Gap",
     "Overlaps",
     "Thickness",
+    "ThinParts",
     "Verdict",
     "add_failures",
     "area_cv",

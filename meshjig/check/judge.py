@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check.closed import is_closed_as_stl, is_one_component, volume
+from meshjig.check.alone import each_alone
 from meshjig.check.gap import Gap, gap_between
 from meshjig.check.overlap import overlaps_between
-from meshjig.check.self_intersection import self_intersections
-from meshjig.check.thickness import Thickness, measure_thickness, without_sheets
+from meshjig.check.thickness import THICKNESS_SHARE, Thickness, thickest, without_sheets
+from meshjig.check.thin_parts import ThinParts
 from meshjig.errors import InputError
 from meshjig.mesh.measure import face_areas
-from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.pieces import Pieces
 from meshjig.runtime.thresholds import FILES_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
@@ -27,9 +26,8 @@ GAP_SHARE = 0.95  # of the clearance, that every gap must keep
 NEAR_SHARE = 0.97  # of the clearance, under which a gap is worth mending
 WIDE_SHARE = 1.1  # of the clearance, that the median gap of all may have
 WIDE_PAIR_SHARE = 1.25  # of the clearance, that the median gap of two neighbours may have
-THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
 MOST_EXEMPT = 0.1  # of the pieces, or of their area, that may be excused from a promise
-EXEMPTIBLE = ("self_intersections", "overlap_mm3", "gap_mm", "gap_wide_mm")
+EXEMPTIBLE = ("self_intersections", "overlap_mm3", "gap_mm", "gap_wide_mm", "thin_walls")
 
 
 @dataclass(frozen=True)
@@ -41,6 +39,7 @@ class Verdict:
     exempt: dict[str, list[str]] = field(default_factory=dict)  # promise: exempt pieces that break it
     named: dict[str, list[str]] = field(default_factory=dict)  # counted, but no promise: its pieces
     near: list[tuple[int, int]] = field(default_factory=list)  # pieces that keep less than the gap, yet some
+    model_thin: dict[str, float] = field(default_factory=dict)  # piece: share of its sheets, as the model is
 
     @property
     def ok(self) -> bool:
@@ -56,6 +55,7 @@ def judge(
     clearance: float | None = None,
     min_wall: float | None = None,
     exempt_pieces: Collection[str] = (),
+    thin_parts: ThinParts | None = None,
 ) -> Verdict:
     """Judge the finished pieces of a puzzle, whatever made them.
 
@@ -70,9 +70,12 @@ def judge(
       named, since pieces far apart are none otherwise; sheets that face each other are left out where
       the thickness is known;
     - ``thickness_mm``: a piece's median, by rays from some 1,000 points, is 0.8 to 1.25 of the thickness;
+      not asked of pieces that reach through a thin part;
+    - ``thin_walls``: at most 0.1 % of a piece's sheets, by rays from 10,000 points, is thinner than the
+      least wall where the model is not;
     - ``exempt``: at most a tenth of the pieces, and of their area, break a promise that they are exempt from.
 
-    Gaps and thickness count only where clearance and thickness are known.
+    Gaps, thickness and walls count only where clearance, thickness and the least wall are known.
 
     Parameters
     ----------
@@ -83,10 +86,13 @@ def judge(
     thickness, clearance : float, mm, optional
         What was asked for.
     min_wall : float, mm, optional
-        What the process can make; thinner pieces are counted and named, which breaks no promise.
+        What the process can make.
     exempt_pieces : names of pieces, such as those touched by crossings of the surface itself
-        What they break by crossing, overlapping or standing too near or far, alone or with another piece,
-        is named in `Verdict.exempt` and does not decide `Verdict.ok`, unless these are too many.
+        What they break by crossing, overlapping, standing too near or far or being thin, alone or with
+        another piece, is named in `Verdict.exempt` and decides `Verdict.ok` only where these are too many.
+    thin_parts : ThinParts, optional
+        The model, or what of each piece was found to be thin because the model is; and which pieces reach
+        through. Without it, all that is thinner than the least wall counts.
 
     Returns
     -------
@@ -102,6 +108,8 @@ def judge(
         raise InputError("there are no pieces to judge")
     names = pieces.names
     spared = {i for i, name in enumerate(names) if name in set(exempt_pieces)}
+    known = thin_parts or ThinParts()
+    through = {i for i, name in enumerate(names) if name in set(known.through_pieces)}
     failures: dict[str, list[str]] = {}
     exempt: dict[str, list[str]] = {}
 
@@ -119,18 +127,18 @@ def judge(
                 blamed[promise] = [names[i] for i in sorted(found)]
 
     small = sum(len(F) for _, F in pieces) < FILES_WORTH_A_CHILD
-    beside = Background(_each_alone, list(pieces), alone=small)
+    beside = Background(each_alone, pieces.solids, min_wall, known.model, alone=small)
     try:
         gap = gap_between(pieces, clearance)
         apart = {(min(i, j), max(i, j)) for i, j, least in gap.pairs if least}
         shared = overlaps_between(pieces, pieces.close(0.0).tolist(), apart)
-        unsound, crossings, sheets = beside.result()
+        each = beside.result()
     except BaseException:
         beside.cancel()
         raise
-    for promise, broken in unsound.items():
+    for promise, broken in each.unsound.items():
         hold(promise, [(i,) for i in broken])
-    hold("self_intersections", [(i,) for i, n in enumerate(crossings) if n])
+    hold("self_intersections", [(i,) for i, n in enumerate(each.crossings) if n])
     sharing = [(i, j) for i, j, mm3 in shared.pairs if mm3 > OVERLAP_MM3]
     hold("overlap_mm3", [*sharing, *((i,) for i in shared.unmeasured)])
     if clearance:
@@ -138,23 +146,27 @@ def judge(
         hold("gap_mm", [(i, j) for i, j, least in gap.pairs if least is not None and least < narrow])
         wide = _wide(gap, clearance) if pieces.neighbours is not None else []
         if wide and thickness:
-            wide = _wide(without_sheets(gap, pieces, wide, THICKNESS_SHARE[1] * thickness), clearance)
+            behind = thickest(each.sheets, thickness, through, len(pieces))
+            wide = _wide(without_sheets(gap, pieces, wide, behind), clearance)
         hold("gap_wide_mm", wide)
+    sheets = each.sheets.without(through)
     facts = sheets.facts(thickness)
-    if thickness and not _within(facts["median"], thickness):
-        hold("thickness_mm", [(i,) for i in _off_thickness(sheets, thickness, len(pieces))])
+    if thickness and len(through) < len(pieces) and not _within(facts["median"], thickness):
+        off = _off_thickness(sheets, thickness, len(pieces))
+        hold("thickness_mm", [(i,) for i in off if i not in through])
+    thin = each.thin.broken(names, known) if each.thin else []
+    hold("thin_walls", [(i,) for i in thin])
     if _too_many_exempt(pieces, {name for broken in exempt.values() for name in broken}):
         failures["exempt"] = sorted({name for broken in exempt.values() for name in broken}, key=names.index)
-    thin = sheets.thin(min_wall) if min_wall else []
 
     checks = {
         "closed": "closed" not in failures,
         "one_component": "one_component" not in failures,
-        "self_intersections": int(sum(crossings)),
+        "self_intersections": int(sum(each.crossings)),
         "overlap_mm3": shared.total,
         "gap_mm": gap.facts(clearance),
         "thickness_mm": facts,
-        "thin_walls": len(thin) if min_wall else None,
+        "thin_walls": len(thin) if each.thin else None,
         **dict.fromkeys(
             (
                 "area_error",
@@ -167,20 +179,9 @@ def judge(
         "head_neck": {"min": None, "median": None},
         "area_cv": None,
     }
-    named = {"thin_walls": [names[i] for i in thin]} if min_wall else {}
+    named = {"thin_walls": [names[i] for i in thin]} if each.thin else {}
     near = [(i, j) for i, j, least in gap.pairs if least and least < NEAR_SHARE * (clearance or 0.0)]
-    return Verdict(checks, failures, exempt, named, near)
-
-
-def _each_alone(meshes: list[Mesh]) -> tuple[dict[str, list[int]], list[int], Thickness]:
-    """List the pieces that are no sound solids, count the crossings of each, and measure their thickness."""
-    every = range(len(meshes))
-    unsound = {
-        "closed": [i for i in every if not is_closed_as_stl(*meshes[i])],
-        "one_component": [i for i in every if not is_one_component(meshes[i].F)],
-        "positive_volume": [i for i in every if volume(*meshes[i]) <= 0],
-    }
-    return unsound, [len(self_intersections(*mesh)) for mesh in meshes], measure_thickness(meshes)
+    return Verdict(checks, failures, exempt, named, near, each.thin.of_model(names) if each.thin else {})
 
 
 def _too_many_exempt(pieces: Pieces, excused: set[str]) -> bool:

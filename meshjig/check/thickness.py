@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from meshjig.check.gap import Gap
-from meshjig.check.soup import Soup, area_samples, first_hit, soup
-from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.check.sheet_rays import OPPOSITE, SheetRays
+from meshjig.check.soup import first_hit, soup
+from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.pieces import Pieces
 from meshjig.mesh.rays import RayScene
 
-__all__ = ["Thickness", "measure_thickness", "without_sheets"]
+__all__ = ["THICKNESS_SHARE", "Thickness", "measure_thickness", "thickest", "thickness_of", "without_sheets"]
 
-_SAMPLES_A_PIECE = 1000
-_OPPOSITE = -0.5  # cosine between the normals where a ray goes in and where it comes out
-_FACING = -0.8  # cosine between the normals of two walls that face each other
-_WALL_REACH = 1.0  # mm; a wall has another piece before it, no farther than this
+THICKNESS_SHARE = (0.8, 1.25)  # of the thickness, between which a piece's median must lie
 
 
 @dataclass(frozen=True)
@@ -39,12 +37,10 @@ class Thickness:
             "thin_area_share": float((self.samples < 0.8 * nominal).mean()) if known and nominal else None,
         }
 
-    def thin(self, least: float) -> list[int]:
-        """List the pieces of which more than 1 % of the sheets is thinner than the least thickness, mm."""
-        order = np.argsort(self.piece, kind="stable")
-        found, start = np.unique(self.piece[order], return_index=True)
-        own = np.split(self.samples[order], start[1:])
-        return [int(i) for i, x in zip(found, own, strict=False) if np.percentile(x, 1) < least]
+    def without(self, pieces: Collection[int]) -> Thickness:
+        """Leave out the samples of some pieces."""
+        kept = ~np.isin(self.piece, list(pieces))
+        return Thickness(self.samples[kept], self.piece[kept])
 
 
 def measure_thickness(pieces: Iterable[Any]) -> Thickness:
@@ -68,27 +64,33 @@ def measure_thickness(pieces: Iterable[Any]) -> Thickness:
     Both sheets are sampled. The rim of an open surface faces nobody and counts as sheet: that is why
     the figures to rely on are p1 and the median.
     """
-    pieces = Pieces.of(pieces)
-    s = soup(pieces)
-    scene = RayScene(s.V, s.F)
-    P, face = area_samples(s, _SAMPLES_A_PIECE * len(pieces))
-    exit_face, way = first_hit(scene, s, P, -s.N[face])
-    through = (exit_face >= 0) & (s.piece[exit_face] == s.piece[face])
-    through &= np.einsum("ij,ij->i", s.N[exit_face], s.N[face]) <= _OPPOSITE
-    P, face, exit_face, way = P[through], face[through], exit_face[through], way[through]
-    exit_point = P - way[:, None] * s.N[face]
-    sheet = ~(_on_wall(scene, s, P, face) | _on_wall(scene, s, exit_point, exit_face))
-    return Thickness(way[sheet], s.piece[face[sheet]])
+    return thickness_of(SheetRays(Pieces.of(pieces)))
 
 
-def _on_wall(scene: RayScene, s: Soup, P: Floats, face: Ints) -> Bools:
-    """Tell which points of the surface have another piece right before them, (k,) bool."""
-    across, distance = first_hit(scene, s, P, s.N[face])
-    wall = (across >= 0) & (s.piece[across] != s.piece[face]) & (distance < _WALL_REACH)
-    return wall & (np.einsum("ij,ij->i", s.N[across], s.N[face]) <= _FACING)
+def thickness_of(rays: SheetRays) -> Thickness:
+    """Measure the thickness of pieces that are ready for rays."""
+    found = rays.spread()
+    return Thickness(found.way[found.free], found.piece[found.free])
 
 
-def without_sheets(gap: Gap, pieces: Pieces, pairs: Sequence[tuple[int, int]], thickest: float) -> Gap:
+def thickest(sheets: Thickness, nominal: float, through: Collection[int], n: int) -> Floats:
+    """Give the most that a sheet of each of n pieces has behind it, (n,), mm.
+
+    Parameters
+    ----------
+    sheets : Thickness
+    nominal : float, mm, what pieces are as thick as
+    through : pieces that reach through a part, and are as thick as that is
+    n : int
+    """
+    most = np.full(n, nominal)
+    for i in through:
+        own = np.append(sheets.samples[sheets.piece == i], nominal)
+        most[i] = max(nominal, float(np.percentile(own, 99)))
+    return THICKNESS_SHARE[1] * most
+
+
+def without_sheets(gap: Gap, pieces: Pieces, pairs: Sequence[tuple[int, int]], behind: Floats) -> Gap:
     """Leave out the samples between some pairs that lie on a sheet.
 
     Inside an ear or a fin the inner sheets of front and back face each other all over, as walls do. Behind a
@@ -99,7 +101,7 @@ def without_sheets(gap: Gap, pieces: Pieces, pairs: Sequence[tuple[int, int]], t
     gap : Gap
     pieces : Pieces, those it was measured on
     pairs : pairs of pieces
-    thickest : float, mm, the most that a sheet has behind it
+    behind : (n,) float64, mm, the most that a sheet of each piece has behind it
 
     Returns
     -------
@@ -109,9 +111,9 @@ def without_sheets(gap: Gap, pieces: Pieces, pairs: Sequence[tuple[int, int]], t
     asked = np.flatnonzero([tuple(pair) in among for pair in gap.sample_pair.tolist()])
     s = soup(pieces)
     face = gap.sample_face[asked]
-    behind, way = first_hit(RayScene(s.V, s.F), s, gap.at[asked], -s.N[face])
-    sheet = (behind >= 0) & (s.piece[behind] == s.piece[face]) & (way <= thickest)
-    sheet &= np.einsum("ij,ij->i", s.N[behind], s.N[face]) <= _OPPOSITE
+    far, way = first_hit(RayScene(s.V, s.F), s, gap.at[asked], -s.N[face])
+    sheet = (far >= 0) & (s.piece[far] == s.piece[face]) & (way <= behind[s.piece[face]])
+    sheet &= np.einsum("ij,ij->i", s.N[far], s.N[face]) <= OPPOSITE
     kept = np.ones(len(gap.samples), bool)
     kept[asked[sheet]] = False
     return replace(

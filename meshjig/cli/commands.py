@@ -109,7 +109,8 @@ def make(
 
 @app.command()
 @takes_options(
-    "size", "unit", "keep", "pieces", "faces", "fill_holes", "memory", "cavities", "resurface", "seed"
+    *("size", "unit", "keep", "pieces", "faces", "fill_holes", "memory", "cavities", "resurface", "seed"),
+    *("process", "thickness", "min_wall"),
 )
 def info(
     mesh: MeshPath,
@@ -137,17 +138,9 @@ def info(
         facts = describe_charts(mesh, options, output and _folder(output))
     else:
         scan = ReadAhead(mesh)
-        from meshjig.pipeline.prepare import preparation
-        from meshjig.scan import describe
+        from meshjig.pipeline.prepare import describe_model
 
-        found = describe(
-            scan,
-            size=options.size,
-            faces=options.faces,
-            cavities=options.cavities,
-            preparation=preparation(options),
-        )
-        facts = dict(found.as_dict())
+        facts = describe_model(scan, options)
     emit(json.dumps(facts, indent=2) if as_json else as_lines(facts))
 
 

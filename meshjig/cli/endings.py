@@ -23,7 +23,10 @@ __all__ = [
 ]
 
 FAILED, USAGE, BROKEN_PROMISE, BAD_INPUT, NO_RESOURCES, BUG = 1, 2, 3, 4, 5, 70
-_SAID = {"exempt": "more than a tenth of the puzzle is exempt, because the model crosses itself there"}
+_SAID = {
+    "exempt": "more than a tenth of the puzzle is exempt, because the model crosses itself there",
+    "thin_walls": "walls thinner than --min-wall where the model is not (thin_walls)",
+}
 CUT_OFF = 128  # and the number of the signal
 
 EPILOG = """Exit codes: 0 good; 2 wrong usage; 3 a promise is broken, though the files are there; 4 bad input;

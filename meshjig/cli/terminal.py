@@ -77,17 +77,12 @@ def tell_notes(report: Mapping[str, Any]) -> None:
     for limb in [limb for limb in limbs if limb["pieces"] > made]:
         where = ", ".join(f"{x:.0f}" for x in limb["at"])
         say(f"meshjig: note: the limb around ({where}) mm is thin: {limb['pieces']} pieces would suit it")
-    necks, walls = report["checks"]["thin_necks"], report["names"].get("thin_walls", [])
+    necks = report["checks"]["thin_necks"]
     if necks:
         many = (
             f"{_count(necks, 'knob has a neck', 'knobs have necks')} thinner than {options['min_neck']:g} mm"
         )
         say(f"meshjig: note: {many}: {_some_of(report['names']['thin_necks'])}")
-    if walls:
-        many = (
-            f"{_count(len(walls), 'piece has', 'pieces have')} places thinner than {options['min_wall']:g} mm"
-        )
-        say(f"meshjig: note: {many}: {_some_of(walls)}")
     bare = len(report.get("labels", {}).get("skipped", ()))
     if bare:
         say(f"meshjig: note: {bare} pieces have no room for their number (see labels in report.json)")

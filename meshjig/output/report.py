@@ -130,12 +130,14 @@ class Expectations(NamedTuple):
     clearance: float | None = None  # mm
     min_wall: float | None = None  # mm
     exempt_pieces: tuple[str, ...] = ()  # names of pieces affected by crossings of the model itself
+    through_pieces: tuple[str, ...] = ()  # names of pieces that reach through a thin part
+    model_thin: Mapping[str, float] = {}  # piece: share of its sheets that is thin because the model is
 
 
 def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) -> Expectations:
     """Read what the report in a folder of pieces says was asked for.
 
-    Nothing that was measured is taken from it.
+    Nothing that was measured of the pieces is taken from it, but where the model itself is thin.
 
     Parameters
     ----------
@@ -154,13 +156,15 @@ def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) ->
     if report is None:
         return Expectations()
     try:
-        options = report["options"]
+        options, through = report["options"], report.get("through", {})
         return Expectations(
             _neighbours(report["pieces"], names),
             thickness=_length(options.get("thickness")),
             clearance=_length(options.get("clearance")),
             min_wall=_length(options.get("min_wall")),
             exempt_pieces=tuple(str(name) for name in report.get("exempt_pieces", ())),
+            through_pieces=tuple(str(name) for name in through.get("pieces", ())),
+            model_thin={str(name): _share(x) for name, x in through.get("model_thin", {}).items()},
         )
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError):
         raise _damaged() from None
@@ -204,6 +208,13 @@ def _length(value: Any) -> float | None:
     if value is None:
         return None
     if isinstance(value, bool | str) or not 0 <= float(value) < math.inf:
+        raise ValueError(value)
+    return float(value)
+
+
+def _share(value: Any) -> float:
+    """Give a share, 0 to 1; a ValueError where it is none."""
+    if isinstance(value, bool | str) or not 0 <= float(value) <= 1:
         raise ValueError(value)
     return float(value)
 

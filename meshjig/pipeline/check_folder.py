@@ -7,11 +7,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from meshjig.check import add_failures, judge, judge_core
+from meshjig.check import ThinParts, add_failures, judge, judge_core
 from meshjig.output.files.read_pieces import read_puzzle_files
 from meshjig.output.report import Report, read_expectations, read_missing
 
 __all__ = ["check_folder"]
+
+_ASKED = ("neighbours", "thickness", "clearance", "min_wall", "exempt_pieces")
 
 
 def check_folder(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Report:
@@ -36,8 +38,11 @@ def check_folder(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Rep
         Nothing found, or a file that can't be read.
     """
     pieces, core, report = read_puzzle_files(paths)
-    asked = read_expectations(report, [name for name, _, _ in pieces])._asdict() | dict(asked_instead)
-    verdict = judge(pieces, **asked)
+    told = read_expectations(report, [name for name, _, _ in pieces])
+    asked = {name: getattr(told, name) for name in _ASKED} | dict(asked_instead)
+    # what is thin because the model is was measured with the least wall of then
+    model_thin = told.model_thin if asked["min_wall"] == told.min_wall else {}
+    verdict = judge(pieces, **asked, thin_parts=ThinParts(None, model_thin, told.through_pieces))
     result: Report = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt
     missing = read_missing(report, [name for name, _, _ in (*pieces, *core)])

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from typing import Any, Unpack
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
+from meshjig.check import ThinParts
 from meshjig.cut import cut_curves, gap_outlines, merge_periodic, overlay, transfer_pieces
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.interlock import interlock
@@ -36,6 +37,7 @@ from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 from meshjig.scan import self_crossings
+from meshjig.scan.thin_share import ThinShare, thin_shares
 from meshjig.solid import Shell, kerf, shell
 from meshjig.solid.kerf import KerfFacts
 
@@ -100,8 +102,9 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
         with stages("clearance"):
             parts = _leave_gaps(layout, options)
         with stages("solid"):
-            sheets, n_crossings, crossing = beside.result()
-            scan = replace(scan, facts=replace(scan.facts, self_crossings=n_crossings))
+            found = beside.result()
+            sheets, crossing = found.sheets, found.crossing
+            scan = replace(scan, facts=replace(scan.facts, self_crossings=found.n_crossings))
             pictures.shell(surface, sheets)
             pieces, kerf_facts = _solids(layout, parts, sheets, options)
         with stages("finish"):
@@ -117,7 +120,8 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
         affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
-        pieces, verdict, mended = verify(replace(pieces, neighbours=neighbours), options, exempt)
+        thin_parts = ThinParts(Mesh(sheets.outer, surface.F))
+        pieces, verdict, mended = verify(replace(pieces, neighbours=neighbours), options, exempt, thin_parts)
         core = verify_core(core, pieces, options, exempt)
         unique = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1] if options.unique else None
         made = Made(
@@ -132,6 +136,7 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
             pieces=pieces,
             exempt=exempt,
             verdict=verdict,
+            thin=found.thin,
             mended=mended,
             labels=labels,
             core=core,
@@ -169,13 +174,24 @@ def _outer_normals(layout: Layout) -> Floats:
     return np.stack([sums(layout.piece_of_face, A[:, k], n) for k in range(3)], 1)
 
 
-def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> tuple[Shell, int | None, Ints]:
-    """Do what needs no charts: the two sheets, how often the mesh crosses itself, and in which faces."""
+class _Beside(NamedTuple):
+    """What needs no charts."""
+
+    sheets: Shell
+    n_crossings: int | None  # of the mesh with itself; None where they could not be counted
+    crossing: Ints  # (k, 2), faces of the surface that do
+    thin: ThinShare  # what of the mesh is thinner than the least wall
+
+
+def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> _Beside:
+    """Lay the two sheets, and look where the mesh crosses itself and where it is thin."""
     pairs = self_crossings(mesh.V, mesh.F)
     crossing = self_crossings(surface.V, surface.F) if pairs is not None and len(pairs) else None
     sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
     none: Ints = np.zeros((0, 2), np.int64)
-    return sheets, None if pairs is None else len(pairs), none if crossing is None else crossing
+    (thin,) = thin_shares(mesh, [options.min_wall])
+    n_crossings = None if pairs is None else len(pairs)
+    return _Beside(sheets, n_crossings, none if crossing is None else crossing, thin)
 
 
 def _leave_gaps(layout: Layout, options: Options) -> Parts:

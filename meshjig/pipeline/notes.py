@@ -11,8 +11,9 @@ from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout
 from meshjig.layout.lock_advice import FEW_LOCKED, LockAdvice, lock_advice
 from meshjig.options import PROCESSES, Options
+from meshjig.scan.thin_share import ThinShare
 
-__all__ = ["core_notes", "lock_note"]
+__all__ = ["core_notes", "lock_note", "thin_notes"]
 
 _LEAST_PIECES = 4  # as few are no puzzle any more
 _TILES = 1.5  # times as large, most tiles lock that hardly did
@@ -67,6 +68,30 @@ def core_notes(core: CoreFacts | None, bodies: int) -> list[str]:
     if core.filled_mm3:
         solid = f"{core.filled_mm3 / 1000:.0f} cm3 of the core are solid"
         notes.append(f"{solid}, since no hollow with a drain could be made there")
+    return notes
+
+
+def thin_notes(thin: ThinShare, options: Options) -> list[str]:
+    """Say so where the model is thinner than the least wall, and which size cures it; or walls are to be.
+
+    Parameters
+    ----------
+    thin : ThinShare, of the model and the least wall
+    options : Options
+    """
+    notes = []
+    if options.thickness < options.min_wall:
+        notes.append(
+            f"walls of {options.thickness:g} mm were asked for, thinner than the {options.min_wall:g} mm of "
+            "--min-wall: use a larger --thickness, or a smaller --min-wall where the printer can make it"
+        )
+    if thin.thinnest_mm is not None and thin.thinnest_at is not None:
+        where = ", ".join(f"{x:.0f}" for x in thin.thinnest_at)
+        notes.append(
+            f"{100 * thin.area_share:.2g} % of the model is thinner than {thin.thinner_than_mm:g} mm, down "
+            f"to {thin.thinnest_mm:.2g} mm around ({where}) mm, and pieces can't be thicker than it is: "
+            f"--size {_rounded_up(thin.none_from_size_mm):g} makes it thick enough"
+        )
     return notes
 
 

@@ -17,11 +17,12 @@ from meshjig.output.plates.printers import estimate_plates, parse_plate
 from meshjig.output.report import Report
 from meshjig.pipeline.cells_or_advice import refuse_cells
 from meshjig.pipeline.extras import build_core
-from meshjig.pipeline.notes import core_notes
+from meshjig.pipeline.notes import core_notes, thin_notes
 from meshjig.pipeline.preflight import piece_size, refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.work_mesh import work_atlas, work_mesh
+from meshjig.scan.thin_share import thin_shares
 from meshjig.solid import Shell, shell
 
 __all__ = ["plan_puzzle"]
@@ -66,6 +67,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     size = float(np.sqrt(area / n))
     bulk = bulk_of_surface(area, _wall(surface, sheets), size).plus(bulk_of(core.parts if core else []))
     plate = parse_plate(options.plate or COMMON_PLATE)
+    (thin,) = thin_shares(scan.mesh, [options.min_wall])
     facts = {} if core is None else {"core": {"parts": core.facts.parts, "volume_mm3": core.facts.volume_mm3}}
     return {
         "model": {
@@ -83,7 +85,11 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "plate": str(plate),
         "plates": min(estimate_plates(n, area, plate, GAP), n) + (core.facts.parts if core else 0),
         "material": material_of(bulk, options.process),
-        "notes": [*scan.facts.notes, *core_notes(core.facts if core else None, scan.facts.components)],
+        "notes": [
+            *scan.facts.notes,
+            *thin_notes(thin, options),
+            *core_notes(core.facts if core else None, scan.facts.components),
+        ],
     }
 
 

@@ -22,13 +22,16 @@ from meshjig.runtime.version import meshjig_version
 from meshjig.scan import Floor, Preparation, Scan, read_scan
 from meshjig.scan.fill import fill_holes
 from meshjig.scan.notes import open_borders_note
+from meshjig.scan.read import with_crossings
+from meshjig.scan.thin_share import thin_shares
 
-__all__ = ["atlas", "clean_scan", "describe_charts"]
+__all__ = ["atlas", "clean_scan", "describe_charts", "describe_model"]
 
 told = logging.getLogger("meshjig.told")  # the command line shows it, unless it is to be quiet
 
 KIND = "set of charts"  # what its folder holds
 LEVEL = 0.01  # of the largest extent: how far off its plane a cut may be after the mesh was simplified
+THROUGH = 2.5  # thicknesses: what is thinner would be cut through
 WIDEST_HOLE = 0.1  # of the largest extent: few and large pieces must not close the rim of a vase
 
 
@@ -83,6 +86,33 @@ def describe_charts(mesh: Any, options: Options, folder: Path | None = None) -> 
             report = {"meshjig": meshjig_version(), "kind": KIND, "charts": made.facts}
             write_report(scratch / "report.json", report)
     return dict(made.facts)
+
+
+def describe_model(mesh: Any, options: Options) -> Report:
+    """Say what a mesh is, what would be done to it, and how much of it is thin.
+
+    Parameters
+    ----------
+    mesh : path, ReadAhead, trimesh.Trimesh, or (V, F)
+    options : Options
+
+    Returns
+    -------
+    dict
+        The fields of `ScanFacts`; "thin": {"through", "min_wall"}, fields of a `ThinShare` each: what would
+        be cut through, and what is thinner than the least wall.
+    """
+    scan = read_scan(
+        mesh,
+        size=options.size,
+        faces=options.faces,
+        cavities=options.cavities,
+        preparation=preparation(options),
+    )
+    limits = {"through": THROUGH * options.thickness, "min_wall": options.min_wall}
+    thin = thin_shares(scan.mesh, list(limits.values()))
+    told = {name: share._asdict() for name, share in zip(limits, thin, strict=True)}
+    return {**with_crossings(scan).as_dict(), "thin": told}
 
 
 def chart(scan: Scan, options: Options) -> MappedAtlas:

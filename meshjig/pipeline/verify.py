@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from meshjig.check import Verdict, judge
+from meshjig.check import ThinParts, Verdict, judge
 from meshjig.mesh.measure import mesh_volume
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
@@ -25,7 +25,9 @@ class Mended:
     discarded_volume_share: float = 0.0  # of all pieces
 
 
-def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pieces, Verdict, Mended]:
+def verify(
+    pieces: Pieces, options: Options, exempt: Sequence[str], thin_parts: ThinParts | None = None
+) -> tuple[Pieces, Verdict, Mended]:
     """Judge the pieces of a puzzle, and dent those that are nearer to a neighbour than the gap.
 
     Walls that cross, or sheets of a thin limb that face each other, leave such places where no wall's slab
@@ -36,6 +38,7 @@ def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pie
     pieces : Pieces, with their neighbours
     options : Options
     exempt : names of pieces that the surface's own crossings touch
+    thin_parts : ThinParts, what is known of where the model is thin
 
     Returns
     -------
@@ -43,7 +46,7 @@ def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pie
     verdict : Verdict
     mended : Mended
     """
-    verdict = _verdict(pieces, options, exempt)
+    verdict = _verdict(pieces, options, exempt, thin_parts)
     if not verdict.near or options.clearance_method != "solid":
         return pieces, verdict, Mended()
     near = np.array(verdict.near)
@@ -55,14 +58,17 @@ def verify(pieces: Pieces, options: Options, exempt: Sequence[str]) -> tuple[Pie
     lost = sum(gone for _, _, gone in changed.values())
     volume = sum(mesh_volume(V, F) for V, F in mended)
     facts = Mended(sorted(changed), lost / max(lost + volume, 1e-300))
-    return mended, _verdict(mended, options, exempt), facts
+    return mended, _verdict(mended, options, exempt, thin_parts), facts
 
 
-def _verdict(pieces: Pieces, options: Options, exempt: Sequence[str]) -> Verdict:
+def _verdict(
+    pieces: Pieces, options: Options, exempt: Sequence[str], thin_parts: ThinParts | None
+) -> Verdict:
     return judge(
         replace(pieces),  # what is worked out of them for the verdict is not kept
         thickness=options.thickness,
         clearance=options.clearance,
         min_wall=options.min_wall,
         exempt_pieces=exempt,
+        thin_parts=thin_parts,
     )

@@ -26,7 +26,7 @@ from meshjig.scan.scale import decimate, refuse_size
 from meshjig.scan.sized import to_size
 from meshjig.scan.source import Source
 
-__all__ = ["Scan", "ScanFacts", "describe", "read_scan"]
+__all__ = ["Scan", "ScanFacts", "describe", "read_scan", "with_crossings"]
 
 
 @dataclass(frozen=True)
@@ -170,6 +170,12 @@ def describe(
     InputError
         As `read_scan`.
     """
-    scan = read_scan(source, size=size, faces=faces, cavities=cavities, preparation=preparation)
+    return with_crossings(
+        read_scan(source, size=size, faces=faces, cavities=cavities, preparation=preparation)
+    )
+
+
+def with_crossings(scan: Scan) -> ScanFacts:
+    """Give the facts of a scan, with ``self_crossings`` counted on its mesh."""
     pairs = self_crossings(scan.mesh.V, scan.mesh.F)
     return replace(scan.facts, self_crossings=None if pairs is None else len(pairs))

@@ -115,7 +115,7 @@ def test_sheets_that_face_each_other_inside_a_fin_are_no_wide_gap():
     halves = fin(0.4)
     measured = gaps(halves, neighbours=np.array([[0, 1]]), clearance=0.2)
     assert measured.wide(0.25) == [(0, 1)]
-    assert without_sheets(measured, halves, [(0, 1)], 2.5).wide(0.25) == []
+    assert without_sheets(measured, halves, [(0, 1)], np.full(2, 2.5)).wide(0.25) == []
     verdict = judge(halves, neighbours=[(0, 1)], clearance=0.2, thickness=2.0)
     assert "gap_wide_mm" not in verdict.failures
 
@@ -123,5 +123,5 @@ def test_sheets_that_face_each_other_inside_a_fin_are_no_wide_gap():
 def test_walls_too_far_apart_are_no_sheets():
     row = [box([10.4 * k, 0, 0], [10.4 * k + 10, 10, 2], 10) for k in range(2)]
     measured = gaps(row, neighbours=np.array([[0, 1]]), clearance=0.2)
-    assert without_sheets(measured, row, [(0, 1)], 2.5).wide(0.25) == [(0, 1)]
-    assert len(without_sheets(measured, row, [(0, 1)], 2.5).samples) == len(measured.samples)
+    assert without_sheets(measured, row, [(0, 1)], np.full(2, 2.5)).wide(0.25) == [(0, 1)]
+    assert len(without_sheets(measured, row, [(0, 1)], np.full(2, 2.5)).samples) == len(measured.samples)

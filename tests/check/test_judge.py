@@ -125,12 +125,11 @@ def test_one_wide_gap_among_many_is_named():
     assert verdict.failures == {"gap_wide_mm": ["piece_003", "piece_004"]}
 
 
-def test_walls_too_thin_for_the_process_are_named_and_break_no_promise():
+def test_walls_too_thin_for_the_process_are_named_and_break_a_promise():
     pieces = [("thick", *box([0, 0, 0], [9, 9, 2])), ("thin", *box([10, 0, 0], [19, 9, 1]))]
     verdict = judge(pieces, min_wall=1.2)
     assert verdict.checks["thin_walls"] == 1
-    assert verdict.named == {"thin_walls": ["thin"]}
-    assert verdict.ok
+    assert verdict.named == verdict.failures == {"thin_walls": ["thin"]}
     assert judge(pieces).checks["thin_walls"] is None
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from tests.check.pieces import box
 from tests.meshes import closed_cylinder, inside_out, joined, moebius, moved, sphere, torus
 
 
@@ -107,6 +108,18 @@ def test_info_prints_facts_of_the_mesh(tmp_path):
     facts = json.loads(said.stdout)
     assert said.returncode == 0
     assert (facts["components"], facts["borders"], facts["genus"], facts["self_crossings"]) == (1, 0, 1, 0)
+
+
+def test_info_says_how_much_of_a_model_is_thin(tmp_path):
+    plate = saved(tmp_path / "plate.stl", box([0, 0, 0], [60, 40, 2]))
+    thin = json.loads(run("info", plate, "--json").stdout)["thin"]
+    assert thin["through"]["thinner_than_mm"] == 5.0
+    assert thin["through"]["area_share"] > 0.9
+    assert thin["through"]["none_from_size_mm"] == pytest.approx(60 * 5 / 2, rel=1e-3)
+    assert thin["min_wall"]["area_share"] == 0
+    thin = json.loads(run("info", plate, "--json", "--thickness", 0.5, "--min-wall", 3).stdout)["thin"]
+    assert thin["through"]["area_share"] == 0
+    assert thin["min_wall"]["none_from_size_mm"] == pytest.approx(60 * 3 / 2, rel=1e-3)
 
 
 def test_equal_input_gives_equal_files(ball, tmp_path):

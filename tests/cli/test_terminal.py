@@ -25,16 +25,17 @@ def test_the_next_step_is_said(capsys, options, plates, words):
     assert all(word in said for word in words), said
 
 
-def test_thin_pieces_are_named(capsys):
+def test_thin_necks_are_named(capsys):
     names = [f"piece_{k:03d}" for k in range(1, 7)]
     report = {
         "options": MADE | {"min_wall": 1.2, "min_neck": 2.0},
         "pieces": [{}] * 6,
         "input": {"notes": []},
-        "checks": {"thin_necks": 1},
-        "names": {"thin_walls": names, "thin_necks": names[:1]},
+        "checks": {"thin_necks": 7},
+        "names": {"thin_necks": names},
     }
     tell_notes(report)
     said = capsys.readouterr().err.splitlines()
-    assert any("1.2 mm" in line and "piece_001, piece_002" in line and "2 more" in line for line in said)
-    assert any("2 mm: piece_001" in line for line in said)
+    assert any(
+        "7 knobs" in line and "2 mm: piece_001, piece_002" in line and "2 more" in line for line in said
+    )

@@ -48,8 +48,10 @@ def test_a_report_tells_what_was_asked_for_and_who_are_neighbours():
         options={"thickness": 3.0, "clearance": 0.1, "min_wall": 0.8, "seed": 5},
         pieces=PIECES,
         exempt_pieces=["piece_002"],
+        through={"pieces": ["piece_003"], "model_thin": {"piece_001": 0.25}},
     )
-    assert read_expectations(report, NAMES) == Expectations([(0, 1), (0, 2)], 3.0, 0.1, 0.8, ("piece_002",))
+    asked = [(0, 1), (0, 2)], 3.0, 0.1, 0.8, ("piece_002",), ("piece_003",), {"piece_001": 0.25}
+    assert read_expectations(report, NAMES) == Expectations(*asked)
     assert read_expectations(report, NAMES[::-1]).neighbours == [(0, 2), (1, 2)]  # in the order of the files
     assert read_expectations(report, NAMES[:2]).neighbours == [(0, 1)]  # a piece was lost
 
@@ -87,6 +89,11 @@ ASKED = {"options": {"thickness": 3.0}, "pieces": PIECES, "exempt_pieces": []}
         {"pieces": [{"id": "x", "neighbours": []}]},
         {"pieces": [{"id": 1, "neighbours": 3}]},
         {"exempt_pieces": 3},
+        {"through": 3},
+        {"through": {"pieces": 3}},
+        {"through": {"model_thin": [0.1]}},
+        {"through": {"model_thin": {"piece_001": 1.5}}},
+        {"through": {"model_thin": {"piece_001": True}}},
         {"core": 3},
         {"core": {"parts": "x"}},
         {"core": {"parts": 10**12}},

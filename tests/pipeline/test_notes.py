@@ -8,7 +8,8 @@ import numpy as np
 from meshjig import make_puzzle
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
-from meshjig.pipeline.notes import lock_note
+from meshjig.pipeline.notes import lock_note, thin_notes
+from meshjig.scan.thin_share import ThinShare
 from tests.meshes import sphere
 
 SMALL = {"pieces": 30}
@@ -55,3 +56,19 @@ def test_tiles_are_to_be_larger():
     assert "20 % of the border length" in note
     assert "--size 32" in note
     assert "--pieces 24" in note
+
+
+THICK = ThinShare(1.2, 0.0, 150.0, None, None)
+
+
+def test_where_the_model_is_thin_the_note_says_how_much_and_what_cures_it():
+    thin = ThinShare(1.2, 0.0314, 225.0, 0.8, [1.2, -30.6, 7.0])
+    (note,) = thin_notes(thin, Options())
+    assert note.startswith("3.1 % of the model is thinner than 1.2 mm, down to 0.8 mm around (1, -31, 7) mm")
+    assert "--size 230" in note
+    assert not thin_notes(THICK, Options())
+
+
+def test_walls_asked_for_thinner_than_the_least_wall_are_said():
+    (note,) = thin_notes(THICK, Options(thickness=1.0))
+    assert "walls of 1 mm were asked for, thinner than the 1.2 mm of --min-wall" in note
