@@ -50,6 +50,7 @@ class OptionKeywords(TypedDict, total=False):
     clearance_method: Literal["stretch", "domain", "solid"] | None
     join: Literal["miter", "round"] | None
     side: Literal["in", "out", "both"] | None
+    through: float | Literal["auto", "off"] | None
     process: str | None
     resurface: bool | None
     layout: Literal["cells", "tiles"] | None
@@ -135,6 +136,10 @@ class Options(BaseModel):
     )
     join: Literal["miter", "round"] = Field("miter", description="how the inner sheet turns at creases")
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
+    through: Annotated[FiniteFloat, Field(gt=0, le=LONGEST)] | Literal["auto", "off"] = Field(
+        "auto",
+        description="cut through parts thinner than this, mm; auto: three times the thickness",
+    )
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
     layout: Literal["cells", "tiles"] = Field(
@@ -183,7 +188,7 @@ class Options(BaseModel):
         None, ge=1, le=4096, description="cores to use; 1: no second process; all if not given"
     )
     cavities: bool = Field(False, description="also cut shells that lie inside the solid")
-    labels: bool = Field(False, description="engrave the number of every piece into its inner side")
+    labels: bool = Field(False, description="engrave the number of every piece where it is not seen")
     core: bool = Field(False, description="also make a core, on which the puzzle is built up")
     seed: int = Field(0, ge=0, le=_MOST_SEED, description="seed of everything random")
     format: tuple[Literal["stl", "ply", "3mf", "obj", "glb"], ...] = Field(

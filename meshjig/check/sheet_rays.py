@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from meshjig.check.sharp_edges import at_edges
 from meshjig.check.soup import area_samples, first_hit, smooth_regions, soup
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edges
@@ -33,6 +34,7 @@ class Rays(NamedTuple):
     piece: Ints  # (k,)
     free: Bools  # (k,), nothing lies right before either end
     sheet: Bools  # (k,), they go from sheet to sheet
+    faces: Ints  # (k, 2), the faces of all pieces that they start and end on
 
     def where(self, some: Bools) -> Rays:
         """Give some of the rays."""
@@ -43,6 +45,7 @@ class Rays(NamedTuple):
             self.piece[some],
             self.free[some],
             self.sheet[some],
+            self.faces[some],
         )
 
 
@@ -77,6 +80,10 @@ class SheetRays:
         share = np.where(np.isin(s.piece, some), s.area / np.maximum(whole, 1e-300)[s.piece], 0.0)
         return self._through(*area_samples(s._replace(area=share), n * len(some)))
 
+    def at_edges(self, rays: Rays) -> Bools:
+        """Tell which rays go through a sharp edge, see `at_edges`, (k,) bool."""
+        return at_edges(self._soup, rays.start, rays.end, rays.faces)
+
     def _through(self, P: Floats, face: Ints) -> Rays:
         s = self._soup
         exit_face, way = first_hit(self._scene, s, P, -s.N[face])
@@ -89,7 +96,9 @@ class SheetRays:
         wall, across = self._wall[face] | before[0], self._wall[exit_face] | before[1]
         broad = np.where(wall, self._broad[exit_face], self._broad[face])
         sheet = ~(wall | across) | ((wall ^ across) & broad & (turned <= _STRAIGHT))
-        return Rays(P, end, way, s.piece[face], ~(before[0] | before[1]), sheet)
+        return Rays(
+            P, end, way, s.piece[face], ~(before[0] | before[1]), sheet, np.stack([face, exit_face], 1)
+        )
 
     def _regions(self) -> tuple[Ints, Floats]:
         """Give the smooth region of each face, (m,), and which share of its piece each region is, (n,)."""

@@ -2,6 +2,16 @@
 
 from meshjig.extras.core import CoreShape, make_core
 from meshjig.extras.engrave import LETTERING, Lettering, engrave
+from meshjig.extras.label_ground import LabelGround, label_grounds
 from meshjig.extras.text import text_outline
 
-__all__ = ["LETTERING", "CoreShape", "Lettering", "engrave", "make_core", "text_outline"]
+__all__ = [
+    "LETTERING",
+    "CoreShape",
+    "LabelGround",
+    "Lettering",
+    "engrave",
+    "label_grounds",
+    "make_core",
+    "text_outline",
+]

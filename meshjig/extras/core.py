@@ -19,6 +19,7 @@ from meshjig.mesh.booleans import Body, arrays, body, largest, sound
 from meshjig.mesh.components import components
 from meshjig.mesh.halfedges import border_halfedges, compact, next_halfedge
 from meshjig.mesh.measure import face_areas, unit, vertex_normals
+from meshjig.mesh.mesh import concatenate
 from meshjig.mesh.types import Mesh
 
 __all__ = ["CoreFacts", "CoreShape", "make_core"]
@@ -62,17 +63,22 @@ class CoreShape:
     plate: tuple[float, float, float] | None = None  # mm, width, depth and height that a printer can make
 
 
-def make_core(outer: Mesh, D: Floats, shape: CoreShape) -> tuple[list[tuple[Floats, Ints]], CoreFacts]:
+def make_core(
+    outer: Mesh, D: Floats, shape: CoreShape, taken: Mesh | None = None
+) -> tuple[list[tuple[Floats, Ints]], CoreFacts]:
     """Make the body that fills a puzzle, but for a gap.
 
-    Limbs too thin for a core have none. It is hollow, with a drain below each hollow, and cut into blocks
-    where it is too large for the plate. The largest part alone is kept of what is not connected.
+    Limbs too thin for a core have none, and it ends where parts begin that pieces fill from side to side. It
+    is hollow, with a drain below each hollow, and cut into blocks where it is too large for the plate. The
+    largest part alone is kept of what is not connected.
 
     Parameters
     ----------
     outer : Mesh, the outer sheet of the pieces; its openings are closed by lids
     D : (n, 3) float64, mm, from its vertices to the inner sheet
     shape : CoreShape
+    taken : Mesh, optional
+        Closed: what belongs to pieces beside the wall. The core keeps its gap to it as well.
 
     Returns
     -------
@@ -89,10 +95,12 @@ def make_core(outer: Mesh, D: Floats, shape: CoreShape) -> tuple[list[tuple[Floa
     About 3 s for 100,000 faces.
     """
     V, F, closed = cap_openings(outer.V + D, outer.F)
+    if taken is not None:  # turned about, so that nothing inside it is wound around
+        V, F = concatenate([Mesh(V, F), Mesh(taken.V, taken.F[:, ::-1])])[:2]
     walls = _walls_beside(outer, D) if closed else None  # a lid may lead through them
     cell = float(np.ptp(V, axis=0).max()) / _CELLS
     aim, wall, min_wall = _AIM * shape.clearance, shape.wall, shape.min_wall
-    for crossed in (False, True):
+    for crossed in (False, True) if taken is None else (True,):
         around = Depth(V, F, crossed=crossed, beside=walls)
         made, G = inset_surface(around, aim, cell, max(min_wall, _FRINGE * cell))
         if not len(G):

@@ -1,4 +1,4 @@
-"""Labels: text engraved into the inner side of pieces."""
+"""Labels: text engraved into the inner side of pieces, or into a wall where both sides are seen."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from meshjig.extras.groove import groove
+from meshjig.extras.label_ground import LabelGround
 from meshjig.extras.label_place import LabelPlace, label_places
 from meshjig.extras.text import text_outline
 from meshjig.mesh.arrays import Floats, Ints
 from meshjig.mesh.booleans import Body, arrays, body, sound
 from meshjig.mesh.components import components
 from meshjig.mesh.measure import area_vectors, barycentric, unit
-from meshjig.mesh.rays import RayScene
 from meshjig.mesh.types import Mesh
 
-__all__ = ["LETTERING", "LabelFacts", "Lettering", "engrave", "wall_behind"]
+__all__ = ["LETTERING", "LabelFacts", "Lettering", "engrave"]
 
 _MOST = 0.35  # of the wall, that is taken away
 _LEAST = 0.6  # of the depth that was asked for; what is shallower can't be read
@@ -28,9 +28,8 @@ _SHARPEST = 0.45  # of a stroke
 _STEEPEST = 0.6  # cosine between the plane of a text and any face under it
 _FINE = 1.2  # mm; edges of the text's body, which follows the sheet
 _FLAT = 0.02  # mm; a sheet that is less uneven under a text is flat
+_NO_ROOM = "it reaches through the model, and neither an inner side nor a wall of it has room"
 _AS_EXPECTED = (0.7, 1.3)  # of the text's area times its depth
-_SKIN = 0.03  # mm; how far a piece may be off the sheet that it was made from
-_ALIKE = 0.9  # cosine between a face and the sheet that it lies on
 
 
 class Lettering(NamedTuple):
@@ -57,29 +56,28 @@ class LabelFacts:
     engraved: int
     least_height_mm: float | None  # of the smallest text, None without any
     skipped: dict[str, str]  # label: why
+    on_walls: tuple[str, ...] = ()  # labels that stand on a wall between pieces: both sides of these are seen
 
 
 def engrave(
     pieces: Iterable[Mesh | tuple[Floats, Ints]],
     labels: Sequence[str],
-    outer: Mesh,
-    D: Floats,
+    grounds: Sequence[LabelGround],
     lettering: Lettering,
     *,
     min_wall: float = 0.0,
 ) -> tuple[list[tuple[Floats, Ints]], LabelFacts]:
-    """Engrave a label into the inner side of every piece where it fits.
+    """Engrave a label into the inner side of every piece where it fits, else into a wall that may have it.
 
-    The text lies where the inner side is widest and nearly flat, follows its curvature, and is evenly deep.
-    It takes no more than 35 % of the wall, and leaves at least the least wall.
+    The text lies where the ground is widest and nearly flat, follows its curvature, and is evenly deep.
+    It takes no more than 35 % of what is behind it, and leaves at least the least wall.
 
     Parameters
     ----------
     pieces : list of (V, F)
         V (n, 3) float64, mm; F (m, 3) int64, closed and oriented outward.
     labels : list of str, one a piece
-    outer : Mesh, the outer sheet
-    D : (k, 3) float64, mm, from its vertices to the inner sheet
+    grounds : list of LabelGround, one a piece
     lettering : Lettering
     min_wall : float, mm, what the process can make
 
@@ -96,18 +94,20 @@ def engrave(
     """
     shallowest = _LEAST * lettering.depth
     needed = max(shallowest / _MOST, shallowest + min_wall)
-    made, skipped, heights = [], {}, []
-    solids = [(V, F) for V, F in pieces]
-    for (V, F), label, wall in zip(solids, labels, wall_behind(solids, outer, D), strict=True):
-        ground = np.flatnonzero(wall >= needed)
-        done = _engraved(Mesh(V, F), ground, wall, label, lettering, min_wall) if len(ground) else None
-        if done is None:
-            made.append((V, F))
-            skipped[label] = _why(V, F, wall, needed)
+    made, skipped, heights, on_walls = [], {}, [], []
+    for (V, F), label, (inner, side) in zip(pieces, labels, grounds, strict=True):
+        for behind in (inner,) if side is None else (inner, side):
+            ground = np.flatnonzero(behind >= needed)
+            done = _engraved(Mesh(V, F), ground, behind, label, lettering, min_wall) if len(ground) else None
+            if done is not None:
+                made.append(done[0])
+                heights.append(done[1])
+                on_walls += [label] if behind is side else []
+                break
         else:
-            made.append(done[0])
-            heights.append(done[1])
-    return made, LabelFacts(len(heights), min(heights, default=None), skipped)
+            made.append((V, F))
+            skipped[label] = _why(V, F, inner, needed) if side is None else _NO_ROOM
+    return made, LabelFacts(len(heights), min(heights, default=None), skipped, tuple(on_walls))
 
 
 def _why(V: Floats, F: Ints, wall: Floats, needed: float) -> str:
@@ -170,44 +170,3 @@ def _sheet_at(local: Floats, F: Ints, points: Floats) -> tuple[Floats, Floats]:
     bary = barycentric(local[:, :2], F, face, points)
     height = np.einsum("kj,kj->k", bary, local[F[face], 2])
     return height, unit(area_vectors(local, F))[face, 2]
-
-
-def wall_behind(pieces: Sequence[tuple[Floats, Ints]], outer: Mesh, D: Floats) -> list[Floats]:
-    """Measure the wall behind the faces on the inner sheet.
-
-    Parameters
-    ----------
-    pieces : list of (V, F)
-        V (n, 3) float64, mm; F (m, 3) int64, closed and oriented outward.
-    outer : Mesh, the outer sheet
-    D : (k, 3) float64, mm, from its vertices to the inner sheet
-
-    Returns
-    -------
-    list of (m,) float64, mm
-        From a face's middle straight through the piece to the outer sheet; 0 for faces that don't lie on the
-        inner sheet.
-
-    Notes
-    -----
-    Two rays a face.
-    """
-    corners = np.concatenate([V[F] for V, F in pieces])
-    normal = unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-    middle = corners.mean(axis=1)
-    centre = outer.V.mean(axis=0)  # Embree has 32 bits
-    way = np.zeros(len(middle))
-    sheet = Mesh(outer.V + D - centre, outer.F[:, ::-1])
-    face, distance = _hits(sheet, middle - centre + _SKIN * normal, -normal)
-    alike = np.einsum("ij,ij->i", unit(area_vectors(sheet.V, sheet.F))[face], normal) > _ALIKE
-    on = np.flatnonzero((face >= 0) & (distance < 2 * _SKIN) & alike)
-    through = Mesh(outer.V - centre, outer.F)
-    face, distance = _hits(through, middle[on] - centre, -normal[on])
-    way[on] = np.where(face >= 0, distance, 0.0)
-    return np.split(way, np.cumsum([len(F) for _, F in pieces])[:-1])
-
-
-def _hits(mesh: Mesh, origin: Floats, toward: Floats) -> tuple[Ints, Floats]:
-    """Give the first face that each ray meets, -1 for none, and the way there."""
-    found = RayScene(mesh.V, mesh.F).hits(origin, toward)
-    return np.asarray(found["primID"], np.int64), np.asarray(found["tfar"], np.float64)

@@ -9,10 +9,11 @@ from meshjig.layout.layout import Layout
 from meshjig.mesh.halfedges import border_halfedges
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
+from meshjig.pipeline.ground import Ground
 from meshjig.pipeline.preflight import refuse_too_small_pieces
 from meshjig.runtime.progress import Stages
 
-__all__ = ["cells_or_advice", "refuse_cells"]
+__all__ = ["cells_on", "cells_or_advice", "refuse_cells"]
 
 _MORE = (2, 4, 8)  # times as many pieces, which are tried
 _MOST = 400  # pieces that are tried: more take longer than a maker wants to wait for a refusal
@@ -37,6 +38,23 @@ def cells_or_advice(surface: Mesh, options: Options, stages: Stages) -> Layout:
     except CutError as error:
         with stages("advice"):
             raise refuse_cells(error, surface, options) from None
+
+
+def cells_on(ground: Ground, options: Options, stages: Stages) -> tuple[Ground, Layout]:
+    """Cut a surface into cells, without the far sides of thin parts where that can be.
+
+    Returns
+    -------
+    ground : Ground, with its far sides where cells would be no discs without them
+    layout : Layout, of it
+    """
+    if ground.mesh is ground.surface:
+        return ground, cells_or_advice(ground.mesh, options, stages)
+    try:
+        return ground, cell_layout(ground.mesh, options, stages)
+    except CutError:
+        ground = ground.whole()
+        return ground, cells_or_advice(ground.mesh, options, stages)
 
 
 def refuse_cells(error: CutError, surface: Mesh, options: Options) -> CutError:

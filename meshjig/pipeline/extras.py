@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from meshjig.check import CoreChecks, judge_core
-from meshjig.extras import LETTERING, CoreShape, engrave, make_core
+from meshjig.extras import LETTERING, CoreShape, engrave, label_grounds, make_core
 from meshjig.extras.core import CoreFacts
 from meshjig.extras.engrave import LabelFacts
 from meshjig.mesh.arrays import Floats
@@ -38,7 +38,7 @@ class Core:
 
 
 def engrave_pieces(
-    pieces: Pieces, surface: Mesh, sheets: Shell, options: Options
+    pieces: Pieces, surface: Mesh, sheets: Shell, options: Options, reach: Floats | None = None
 ) -> tuple[Pieces, LabelFacts | None]:
     """Give pieces their labels, where they are asked for, and make them such that files can hold them.
 
@@ -48,6 +48,8 @@ def engrave_pieces(
     surface : Mesh, what was offset
     sheets : Shell, its sheets
     options : Options
+    reach : (p,) float64, mm, optional
+        How thick the thin parts are at most that each piece reaches through; 0 for none.
 
     Returns
     -------
@@ -60,21 +62,24 @@ def engrave_pieces(
         solids, facts = engrave(
             pieces,
             [str(i + 1) for i in range(len(pieces))],
-            Mesh(sheets.outer, surface.F),
-            sheets.D,
+            label_grounds(solids, Mesh(sheets.outer, surface.F), sheets.D, reach),
             LETTERING.get(options.process, LETTERING["fdm"]),
             min_wall=options.min_wall,
         )
     return pieces.with_solids(all_printable(solids)), facts
 
 
-def build_core(surface: Mesh, sheets: Shell, options: Options, up: Floats) -> Core | None:
+def build_core(
+    surface: Mesh, sheets: Shell, options: Options, up: Floats, taken: Mesh | None = None
+) -> Core | None:
     """Make the body on which the puzzle is built up, where it is asked for, in parts that fit the plate.
 
     Parameters
     ----------
     surface, sheets, options : as for `engrave_pieces`
     up : (3,) float64, unit
+    taken : Mesh, optional
+        What lies between both sides of parts that are cut through.
 
     Raises
     ------
@@ -94,6 +99,7 @@ def build_core(surface: Mesh, sheets: Shell, options: Options, up: Floats) -> Co
             up=up,
             plate=None if plate is None else (plate.width - 2 * GAP, plate.depth - 2 * GAP, plate.height),
         ),
+        taken,
     )
     sound = all_printable(parts)
     return Core([Piece(f"core_{i + 1}", V, F, CORE_COLOUR) for i, (V, F) in enumerate(sound)], facts)

@@ -4,30 +4,32 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from typing import Any, NamedTuple, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from meshjig.check import ThinParts
-from meshjig.cut import cut_curves, gap_outlines, merge_periodic, overlay, transfer_pieces
+from meshjig.cut import cut_curves, merge_periodic
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.interlock import interlock
-from meshjig.layout.layout import Layout, Parts, affected_pieces
+from meshjig.layout.layout import Layout, affected_pieces
 from meshjig.layout.tiles import tile_layout
-from meshjig.mesh.measure import area_vectors, face_areas, sums
-from meshjig.mesh.pieces import Pieces, piece_names
+from meshjig.mesh.measure import area_vectors, sums
 from meshjig.mesh.types import Floats, Ints, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.material import bulk_of, material_of
 from meshjig.output.texture import textures
 from meshjig.pipeline.bodies import note_contacts
-from meshjig.pipeline.cells_or_advice import cells_or_advice
+from meshjig.pipeline.cells_or_advice import cells_on
 from meshjig.pipeline.debug_pictures import StagePictures
 from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
+from meshjig.pipeline.ground import surface_to_lay_out
 from meshjig.pipeline.preflight import checked_options, refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
 from meshjig.pipeline.report import Made, assemble_report
+from meshjig.pipeline.solids import beside_charts, leave_gaps, make_solids
+from meshjig.pipeline.through import solid_parts, through_facts
 from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.verify import verify
 from meshjig.pipeline.work_mesh import work_atlas, work_mesh
@@ -36,10 +38,6 @@ from meshjig.runtime.cores import use_cores
 from meshjig.runtime.progress import Progress, Stages, peak_memory_mb
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
-from meshjig.scan import self_crossings
-from meshjig.scan.thin_share import ThinShare, thin_shares
-from meshjig.solid import Shell, kerf, shell
-from meshjig.solid.kerf import KerfFacts
 
 __all__ = ["make_puzzle"]
 
@@ -86,30 +84,37 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
         scan = clean_scan(mesh, options)
         up = pictures.up = up_direction(options.up, scan)
         surface, longest = work_mesh(scan.mesh, options)
+        ground = surface_to_lay_out(surface, options)
+        surface = ground.surface
     small = len(surface.F) < SOLIDS_WORTH_A_CHILD
-    beside = Background(_beside_charts, scan.mesh, surface, options, alone=small, gently=True)
+    beside = Background(
+        beside_charts, scan.mesh, surface, ground.thin is not None, options, alone=small, gently=True
+    )
     try:
         if options.layout == "cells":
-            layout = cells_or_advice(surface, options, stages)
+            ground, layout = cells_on(ground, options, stages)
             pictures.atlas(layout.atlas)
         else:
             with stages("charts"):
-                atlas = work_atlas(scan, surface, longest, options)
+                atlas = work_atlas(scan, ground.mesh, longest, options)
             pictures.atlas(atlas)
             layout = tile_layout(atlas, options, stages)
         pictures.layout(layout)
+        ground = ground.sparing(layout)
         refuse_hollow_piece(layout.cut.mesh, layout.piece_of_face, options)
         with stages("clearance"):
-            parts = _leave_gaps(layout, options)
+            parts = leave_gaps(layout, options)
         with stages("solid"):
             found = beside.result()
             sheets, crossing = found.sheets, found.crossing
             scan = replace(scan, facts=replace(scan.facts, self_crossings=found.n_crossings))
             pictures.shell(surface, sheets)
-            pieces, kerf_facts = _solids(layout, parts, sheets, options)
+            layout, parts, pieces, kerf_facts, reaches = make_solids(layout, parts, ground, sheets, options)
         with stages("finish"):
-            pieces, labels = engrave_pieces(pieces, surface, sheets, options)
-            core = build_core(surface, sheets, options, up)
+            depths = np.where(reaches, ground.limit, 0.0)
+            pieces, labels = engrave_pieces(pieces, surface, sheets, options, depths)
+            taken = solid_parts(ground, sheets) if options.core else None
+            core = build_core(surface, sheets, options, up, taken)
     except BaseException:
         beside.cancel()
         raise
@@ -117,10 +122,11 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
         locks = interlock(merge_periodic(layout.cut, layout.outlines), layout.knobs, layout.piece_of_face)
         notes = [*scan.facts.notes, *note_contacts(pieces, layout, options)]
         scan = replace(scan, facts=replace(scan.facts, notes=notes))
-        affected = affected_pieces(crossing, layout.face_of_surface, layout.piece_of_face)
+        affected = affected_pieces(crossing, ground.faces_of(layout), layout.piece_of_face)
         exempt = [pieces.names[i] for i in sorted(affected)]
         neighbours = locks.pairs[locks.faces_other(options.clearance, options.min_wall)]
-        thin_parts = ThinParts(Mesh(sheets.outer, surface.F))
+        through = [name for name, reaching in zip(pieces.names, reaches, strict=True) if reaching]
+        thin_parts = ThinParts(Mesh(sheets.outer, surface.F), through_pieces=through)
         pieces, verdict, mended = verify(replace(pieces, neighbours=neighbours), options, exempt, thin_parts)
         core = verify_core(core, pieces, options, exempt)
         unique = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1] if options.unique else None
@@ -136,14 +142,16 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
             pieces=pieces,
             exempt=exempt,
             verdict=verdict,
+            through=through_facts(ground, pieces, reaches),
             thin=found.thin,
+            uncut=found.uncut,
             mended=mended,
             labels=labels,
             core=core,
             unique=unique,
         )
         report = assemble_report(made)
-    dressed = _dressed(made)
+    dressed = _dressed(made, _outer_normals(layout, ground.labels(layout)))
     pictures.pieces(dressed)
     measured = {"timings_s": dict(stages.seconds), "peak_memory_mb": peak_memory_mb()}
     bulk = bulk_of(dressed).plus(bulk_of(core.parts if core else []))
@@ -152,13 +160,13 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
     return Puzzle(dressed, report, curves, core.parts if core else [])
 
 
-def _dressed(made: Made) -> list[Piece]:
+def _dressed(made: Made, outward: Floats) -> list[Piece]:
     """Give pieces their colours, and the picture of the scan where it has one."""
     scan, options, pieces = made.scan, made.options, made.pieces
     t, drawn = options.thickness, 0.25 * options.thickness
     off = {"in": 0.0, "both": t / 2, "out": t}[options.side]
     solids = [(V, F) for V, F in pieces]
-    tints, outward = colours(len(pieces), made.locks.pairs), _outer_normals(made.layout)
+    tints = colours(len(pieces), made.locks.pairs)
     dressed = textures(solids, tints, scan.mesh, scan.source, scan.to_source, (off - drawn, off + drawn))
     return [
         Piece(
@@ -168,50 +176,8 @@ def _dressed(made: Made) -> list[Piece]:
     ]
 
 
-def _outer_normals(layout: Layout) -> Floats:
-    """Give the area vector of every piece's outer sheet, (p, 3), mm2."""
-    A, n = area_vectors(layout.cut.V, layout.cut.F) / 2, layout.stitching.n_pieces
-    return np.stack([sums(layout.piece_of_face, A[:, k], n) for k in range(3)], 1)
-
-
-class _Beside(NamedTuple):
-    """What needs no charts."""
-
-    sheets: Shell
-    n_crossings: int | None  # of the mesh with itself; None where they could not be counted
-    crossing: Ints  # (k, 2), faces of the surface that do
-    thin: ThinShare  # what of the mesh is thinner than the least wall
-
-
-def _beside_charts(mesh: Mesh, surface: Mesh, options: Options) -> _Beside:
-    """Lay the two sheets, and look where the mesh crosses itself and where it is thin."""
-    pairs = self_crossings(mesh.V, mesh.F)
-    crossing = self_crossings(surface.V, surface.F) if pairs is not None and len(pairs) else None
-    sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
-    none: Ints = np.zeros((0, 2), np.int64)
-    (thin,) = thin_shares(mesh, [options.min_wall])
-    n_crossings = None if pairs is None else len(pairs)
-    return _Beside(sheets, n_crossings, none if crossing is None else crossing, thin)
-
-
-def _leave_gaps(layout: Layout, options: Options) -> Parts:
-    """Cut the surface once more with the gap, unless the gap is to be taken from the solids."""
-    if options.clearance == 0 or options.clearance_method == "solid":
-        return Parts(layout.cut, layout.piece_of_face, 0.0)
-    atlas = layout.atlas
-    band = gap_outlines(
-        atlas, layout.cut, layout.outlines, layout.piece_of_face, options.clearance, options.clearance_method
-    )
-    cut = overlay(atlas, band)
-    piece, specks = transfer_pieces(layout.cut, layout.piece_of_face, cut)
-    area = face_areas(cut.V, cut.F)
-    return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
-
-
-def _solids(layout: Layout, parts: Parts, sheets: Shell, options: Options) -> tuple[Pieces, KerfFacts]:
-    """Give the pieces their thickness."""
-    cut = parts.cut
-    outer, D = (layout.carried(X, cut) for X in (sheets.outer, sheets.D))
-    clearance = options.clearance if options.clearance_method == "solid" else 0.0
-    made, facts = kerf(outer, cut.F, parts.piece_of_face, D, clearance)
-    return Pieces(tuple(piece_names(len(made))), tuple(made)), facts
+def _outer_normals(layout: Layout, piece_of_face: Ints) -> Floats:
+    """Give the area vector of every piece's outer sheet, without far sides, (p, 3), mm2."""
+    kept, n = piece_of_face >= 0, layout.stitching.n_pieces
+    A = area_vectors(layout.cut.V, layout.cut.F[kept]) / 2
+    return np.stack([sums(piece_of_face[kept], A[:, k], n) for k in range(3)], 1)

@@ -10,10 +10,12 @@ from meshjig.extras.core import CoreFacts
 from meshjig.layout.interlock import Interlock
 from meshjig.layout.layout import Layout
 from meshjig.layout.lock_advice import FEW_LOCKED, LockAdvice, lock_advice
+from meshjig.mesh.mesh import Mesh
 from meshjig.options import PROCESSES, Options
-from meshjig.scan.thin_share import ThinShare
+from meshjig.pipeline.ground import limit_asked, why_not_through
+from meshjig.scan.thin_share import ThinShare, thin_shares
 
-__all__ = ["core_notes", "lock_note", "thin_notes"]
+__all__ = ["core_notes", "lock_note", "thin_notes", "thin_places"]
 
 _LEAST_PIECES = 4  # as few are no puzzle any more
 _TILES = 1.5  # times as large, most tiles lock that hardly did
@@ -71,13 +73,34 @@ def core_notes(core: CoreFacts | None, bodies: int) -> list[str]:
     return notes
 
 
-def thin_notes(thin: ThinShare, options: Options) -> list[str]:
+def thin_places(mesh: Mesh, options: Options) -> tuple[ThinShare, ThinShare | None]:
+    """Say what of a model is thinner than the least wall, and what is not cut through because of an option.
+
+    Parameters
+    ----------
+    mesh : Mesh, mm
+    options : Options
+
+    Returns
+    -------
+    thin : ThinShare
+    uncut : ThinShare, or None where no option keeps anything from being cut through
+    """
+    limits = [options.min_wall, *([limit_asked(options)] if why_not_through(options) else [])]
+    thin, *uncut = thin_shares(mesh, limits)
+    return thin, uncut[0] if uncut else None
+
+
+def thin_notes(thin: ThinShare, options: Options, uncut: ThinShare | None = None) -> list[str]:
     """Say so where the model is thinner than the least wall, and which size cures it; or walls are to be.
+
+    And where thin parts are not cut through because of another option.
 
     Parameters
     ----------
     thin : ThinShare, of the model and the least wall
     options : Options
+    uncut : ThinShare, of the model and the limit below which it would be cut through; None where it is
     """
     notes = []
     if options.thickness < options.min_wall:
@@ -91,6 +114,11 @@ def thin_notes(thin: ThinShare, options: Options) -> list[str]:
             f"{100 * thin.area_share:.2g} % of the model is thinner than {thin.thinner_than_mm:g} mm, down "
             f"to {thin.thinnest_mm:.2g} mm around ({where}) mm, and pieces can't be thicker than it is: "
             f"--size {_rounded_up(thin.none_from_size_mm):g} makes it thick enough"
+        )
+    if uncut is not None and uncut.thinnest_mm is not None:
+        notes.append(
+            f"{100 * uncut.area_share:.2g} % of the model is thinner than {uncut.thinner_than_mm:g} mm, "
+            f"but is not cut through: {why_not_through(options)}"
         )
     return notes
 

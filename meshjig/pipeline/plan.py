@@ -17,12 +17,13 @@ from meshjig.output.plates.printers import estimate_plates, parse_plate
 from meshjig.output.report import Report
 from meshjig.pipeline.cells_or_advice import refuse_cells
 from meshjig.pipeline.extras import build_core
-from meshjig.pipeline.notes import core_notes, thin_notes
-from meshjig.pipeline.preflight import piece_size, refuse_hollow_piece, refuse_unknown_names
+from meshjig.pipeline.ground import Ground, surface_to_lay_out
+from meshjig.pipeline.notes import core_notes, thin_notes, thin_places
+from meshjig.pipeline.preflight import refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
+from meshjig.pipeline.through import solid_parts
 from meshjig.pipeline.up import up_direction
 from meshjig.pipeline.work_mesh import work_atlas, work_mesh
-from meshjig.scan.thin_share import thin_shares
 from meshjig.solid import Shell, shell
 
 __all__ = ["plan_puzzle"]
@@ -56,18 +57,28 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     refuse_unknown_names(options)
     scan = clean_scan(mesh, options)
     surface, longest = work_mesh(scan.mesh, options)
-    area, size = float(surface.areas.sum()), piece_size(scan.mesh, options)
-    n = max(1, round(area / size**2))
+    ground = surface_to_lay_out(surface, options)
+    surface = ground.surface
+    area, laid_out = float(surface.areas.sum()), float(ground.mesh.areas.sum())
+    n = max(1, round(laid_out / options.piece_size**2)) if options.piece_size else options.pieces
     if options.layout == "cells":
-        n = _cells(surface, n, options)
+        n = _cells(ground, n, options)
     else:
-        work_atlas(scan, surface, longest, options)
-    sheets = shell(surface.V, surface.F, options.thickness, side=options.side, join=options.join)
-    core = build_core(surface, sheets, options, up_direction(options.up, scan))
-    size = float(np.sqrt(area / n))
+        work_atlas(scan, ground.mesh, longest, options)
+    sheets = shell(
+        surface.V,
+        surface.F,
+        options.thickness,
+        side=options.side,
+        join=options.join,
+        crowded=ground.thin is not None,
+    )
+    taken = solid_parts(ground, sheets) if options.core else None
+    core = build_core(surface, sheets, options, up_direction(options.up, scan), taken)
+    size = float(np.sqrt(laid_out / n))
     bulk = bulk_of_surface(area, _wall(surface, sheets), size).plus(bulk_of(core.parts if core else []))
     plate = parse_plate(options.plate or COMMON_PLATE)
-    (thin,) = thin_shares(scan.mesh, [options.min_wall])
+    thin, uncut = thin_places(scan.mesh, options)
     facts = {} if core is None else {"core": {"parts": core.facts.parts, "volume_mm3": core.facts.volume_mm3}}
     return {
         "model": {
@@ -83,24 +94,26 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
         "clearance_mm": options.clearance,
         **facts,
         "plate": str(plate),
-        "plates": min(estimate_plates(n, area, plate, GAP), n) + (core.facts.parts if core else 0),
+        "plates": min(estimate_plates(n, laid_out, plate, GAP), n) + (core.facts.parts if core else 0),
         "material": material_of(bulk, options.process),
         "notes": [
             *scan.facts.notes,
-            *thin_notes(thin, options),
+            *thin_notes(thin, options, uncut),
             *core_notes(core.facts if core else None, scan.facts.components),
         ],
     }
 
 
-def _cells(surface: Mesh, n: int, options: Options) -> int:
+def _cells(ground: Ground, n: int, options: Options) -> int:
     """Give the number of cells that a surface has."""
     try:
         cells = grow_cells(
-            surface, n, seed=options.seed, style=options.style, crease_aware=options.crease_aware
+            ground.mesh, n, seed=options.seed, style=options.style, crease_aware=options.crease_aware
         )
     except CutError as error:
-        raise refuse_cells(error, surface, options) from None
+        if ground.mesh is not ground.surface:
+            return _cells(ground.whole(), n, options)
+        raise refuse_cells(error, ground.mesh, options) from None
     refuse_hollow_piece(cells.mesh, cells.cell, options)
     return cells.n_cells
 

@@ -16,6 +16,7 @@ from meshjig.mesh.types import Bools, Mesh
 from meshjig.options import OptionKeywords, Options
 from meshjig.output.folder import replace_folder, reserve_folder
 from meshjig.output.report import Report, write_report
+from meshjig.pipeline.ground import limit_of
 from meshjig.pipeline.preflight import checked_options, piece_size
 from meshjig.pipeline.up import AUTO, up_axis
 from meshjig.runtime.version import meshjig_version
@@ -31,7 +32,6 @@ told = logging.getLogger("meshjig.told")  # the command line shows it, unless it
 
 KIND = "set of charts"  # what its folder holds
 LEVEL = 0.01  # of the largest extent: how far off its plane a cut may be after the mesh was simplified
-THROUGH = 2.5  # thicknesses: what is thinner would be cut through
 WIDEST_HOLE = 0.1  # of the largest extent: few and large pieces must not close the rim of a vase
 
 
@@ -109,7 +109,7 @@ def describe_model(mesh: Any, options: Options) -> Report:
         cavities=options.cavities,
         preparation=preparation(options),
     )
-    limits = {"through": THROUGH * options.thickness, "min_wall": options.min_wall}
+    limits = {"through": limit_of(options), "min_wall": options.min_wall}
     thin = thin_shares(scan.mesh, list(limits.values()))
     told = {name: share._asdict() for name, share in zip(limits, thin, strict=True)}
     return {**with_crossings(scan).as_dict(), "thin": told}

@@ -21,6 +21,7 @@ from meshjig.output.report import Report
 from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
 from meshjig.pipeline.notes import core_notes, lock_note, thin_notes
+from meshjig.pipeline.through import ThroughFacts
 from meshjig.pipeline.verify import Mended
 from meshjig.runtime.version import meshjig_version
 from meshjig.scan import Scan
@@ -54,7 +55,9 @@ class Made:
     pieces: Pieces
     exempt: list[str]  # pieces that crossings of the model itself touch
     verdict: Verdict
+    through: ThroughFacts
     thin: ThinShare  # what of the model is thinner than the least wall
+    uncut: ThinShare | None  # what would be cut through, were it not for an option
     mended: Mended
     labels: LabelFacts | None
     core: Core | None
@@ -91,7 +94,7 @@ def assemble_report(made: Made) -> Report:
         | told(made.kerf)
         | {"discarded_volume_share": made.discarded_volume_share, "dented": made.mended.dented},
         "pieces": _pieces(area, made.pieces, locks, options),
-        "through": {"model_thin": made.verdict.model_thin},
+        "through": {**asdict(made.through), "model_thin": made.verdict.model_thin},
         "checks": checks,
         "names": made.verdict.named | {"thin_necks": [made.pieces.names[i] for i in thin]},
         "failures": failures,
@@ -113,7 +116,7 @@ def _notes(made: Made) -> list[str]:
     """Give what a maker should know though no promise is broken, a sentence each."""
     locks = lock_note(made.layout, made.locks, made.options)
     core = core_notes(made.core.facts if made.core else None, made.scan.facts.components)
-    return [*thin_notes(made.thin, made.options), *([] if locks is None else [locks]), *core]
+    return [*thin_notes(made.thin, made.options, made.uncut), *([] if locks is None else [locks]), *core]
 
 
 def _layout(layout: Layout) -> Report:

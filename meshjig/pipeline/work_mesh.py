@@ -21,6 +21,7 @@ __all__ = ["work_atlas", "work_mesh"]
 
 MUCH_FINER = 1.1  # times as many faces: more freedom for charts
 
+_WHOLE = 1 - 1e-6  # of the area; a smaller surface lacks the far sides of thin parts
 _NEEDLE = 1000.0  # times as long as wide
 _MOST_NEEDLES = 0.05  # of the faces; meshes that people model or scan have none
 _FEW = 20_000  # faces, of which even needles do no harm
@@ -60,7 +61,7 @@ def work_atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> M
 
     So a few long edges don't change the charts that `info` has shown.
     """
-    if len(surface.F) > MUCH_FINER * len(scan.mesh.F):
+    if len(surface.F) > MUCH_FINER * len(scan.mesh.F) or surface.areas.sum() < _WHOLE * scan.mesh.areas.sum():
         return chart(replace(scan, mesh=surface), options)
     return refine_atlas(chart(scan, options), longest)
 

@@ -11,7 +11,7 @@ from meshjig.mesh.chains import summed_along
 from meshjig.mesh.halfedges import edges, next_halfedge
 from meshjig.solid.wall_edges import bent
 
-__all__ = ["Chains", "border_chains", "simplified"]
+__all__ = ["Chains", "border_chains", "edge_lines", "simplified"]
 
 
 class Chains(NamedTuple):
@@ -36,7 +36,21 @@ def border_chains(F: Ints, piece_of_face: Ints) -> Chains:
         Every edge between two pieces, once. Lines end where other than two such edges meet; one without
         an end is closed.
     """
-    tail, head, pair = _border_edges(F, piece_of_face)
+    return edge_lines(*_border_edges(F, piece_of_face))
+
+
+def edge_lines(tail: Ints, head: Ints, pair: Ints) -> Chains:
+    """Put directed edges together to lines.
+
+    Parameters
+    ----------
+    tail, head : (e,) int64, vertices
+    pair : (e, 2) int64, the pieces on both sides; a line ends where they change
+
+    Returns
+    -------
+    Chains
+    """
     if not len(tail):
         return Chains(np.empty(0, np.int64), np.zeros(1, np.int64), np.empty((0, 2), np.int64))
     before = _edge_before(tail, head, pair)

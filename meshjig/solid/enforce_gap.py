@@ -12,7 +12,7 @@ from meshjig.mesh.mesh import Mesh
 from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.cutters import ball
 
-__all__ = ["enforce_gap"]
+__all__ = ["SPREAD", "enforce_gap"]
 
 _ENOUGH = 0.97  # of the clearance
 _WANTED = 0.995
@@ -23,7 +23,7 @@ _DEPTH = 0.005  # mm; shallower crossings are rounding
 _MOST_DENTS = 400
 
 # weights of a triangle's corners that give points all over it
-_SPREAD = np.array([(a, b, 4 - a - b) for a in range(5) for b in range(5 - a)]) / 4
+SPREAD = np.array([(a, b, 4 - a - b) for a in range(5) for b in range(5 - a)]) / 4
 
 
 def enforce_gap(
@@ -81,7 +81,7 @@ def _contacts(first: Body, second: Body, clearance: float) -> Floats:
         low, high = W.min(0) - clearance, W.max(0) + clearance
         corners = V[F]
         corners = corners[((corners.max(1) >= low) & (corners.min(1) <= high)).all(1)]
-        P = (corners[:, None] * _SPREAD[None, :, :, None]).sum(2).reshape(-1, 3)
+        P = (corners[:, None] * SPREAD[None, :, :, None]).sum(2).reshape(-1, 3)
         if not len(P):
             continue
         squared, _, foot = igl.point_mesh_squared_distance(P, W, G)

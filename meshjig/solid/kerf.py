@@ -14,13 +14,14 @@ from meshjig.mesh.mesh import Mesh
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
 from meshjig.solid.border_chains import border_chains
-from meshjig.solid.carve_gap import Carved, carve
+from meshjig.solid.carve_gap import Carved, Walls, carve
+from meshjig.solid.carve_through import Stock, carve_through, joined_lines, rim_lines, separated
 from meshjig.solid.offsets import Strip, mitered
 from meshjig.solid.solidify import solidify
-from meshjig.solid.wall_edges import split_bent_walls
+from meshjig.solid.wall_edges import LabelledShell, split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
 
-__all__ = ["KerfFacts", "kerf"]
+__all__ = ["KerfFacts", "carve_pieces", "kerf"]
 
 _OWN_SHARE = 0.48  # of the faces; the caller also takes what the child has made
 
@@ -82,9 +83,29 @@ def kerf(
         at = border_chains(F, piece_of_face).vertex
         D = D.copy()
         D[at] = wall[at]
-    asked = V, F, piece_of_face, D, clearance
-    first = _first_half(V, F, piece_of_face)
-    if clearance == 0 or len(F) < SOLIDS_WORTH_A_CHILD or not first.any():
+    return carve_pieces(LabelledShell(V, F, piece_of_face, D), clearance)[:2]
+
+
+def carve_pieces(
+    surface: LabelledShell, clearance: float, stock: Stock | None = None
+) -> tuple[list[Mesh], KerfFacts, dict[int, tuple[Mesh, ...]]]:
+    """Do as `kerf` does, where some pieces reach through thin parts: these are cut from the model's wall.
+
+    Parameters
+    ----------
+    surface : LabelledShell
+    clearance : float, mm
+    stock : Stock, optional
+
+    Returns
+    -------
+    solids : list of Mesh
+    facts : KerfFacts
+    strays : dict of meshes, by piece number: what came off of pieces that reach through
+    """
+    asked = surface, clearance, stock
+    first = _first_half(*surface[:3])
+    if clearance == 0 or len(surface.F) < SOLIDS_WORTH_A_CHILD or not first.any():
         carved, counted = _carved(*asked, np.ones_like(first))
     else:
         child = Background(_carved_beside, *asked, ~first)
@@ -97,9 +118,11 @@ def kerf(
             raise
         carved |= others
         counted = [a + b for a, b in zip(counted, more, strict=True)]
+    if stock is not None:
+        carved |= separated(carved, stock, clearance)
     empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
     solids = [Mesh(*(carved[i][:2] if i in carved else empty)) for i in range(len(first))]
-    return solids, _facts(counted, carved)
+    return solids, _facts(counted, carved), {i: piece.strays for i, piece in carved.items() if piece.strays}
 
 
 def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], list[int]]:
@@ -109,24 +132,39 @@ def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], list[int]]:
 
 
 def _carved(
-    V: Floats, F: Ints, piece: Ints, D: Floats, clearance: float, chosen: Bools
+    surface: LabelledShell, clearance: float, stock: Stock | None, chosen: Bools
 ) -> tuple[dict[int, Carved], list[int]]:
     """Make some of the pieces, and count what was met meanwhile, as the first of KerfFacts."""
     if clearance > 0:
-        V, F, piece, D = split_bent_walls(V, F, piece, D, most_bend(clearance))
+        surface = split_bent_walls(*surface, most_bend(clearance))
+    V, F, piece, D = surface
     label = np.append(np.where(chosen, np.arange(len(chosen)), -1), -1)[piece]
     solids, counts = solidify(V, F, label, D)
     made = {i: solid for i, solid in enumerate(solids) if len(solid.F)}
     chains = border_chains(F, piece)
     if clearance == 0 or not len(chains.pair):
         return {i: Carved(s.V, s.F, 0.0, 0, "clean") for i, s in made.items()}, [*counts, 0, 0, 0]
-    strip, line = wall_strip(V, D, F, chains, clearance)
-    strip, pair = _around(chosen, strip, chains.pair[line])
+    if stock is not None:
+        chains = joined_lines(chains, rim_lines(stock.rim))
+    past = np.full(len(V), clearance)
+    if stock is not None:
+        past[: len(stock.past)] = np.maximum(clearance, stock.past)
+    strip, line = wall_strip(V, D, F, chains, clearance, past)
+    pair = chains.pair[line]
+    kept = np.asarray(chosen[pair].any(1))
+    strip, pair = _some(strip, kept), pair[kept]
     offsets = mitered(strip, clearance / 2)
     mine = chosen[pair[:, 0]]  # quads between the halves are met twice
     sharp = (strip.after >= 0) & (offsets.after < 0)
     met = [int((mine & some).sum()) for some in (mine, sharp, offsets.failed)]
-    return carve(made, strip, offsets, pair, clearance), [*counts, *met]
+    walls = Walls(strip, offsets, pair, clearance / 2)
+    if stock is None:
+        return carve(made, walls), [*counts, *met]
+    reaching = {
+        i: made.pop(i) for i in np.flatnonzero(stock.reaches[: len(chosen)] & chosen).tolist() if i in made
+    }
+    through = carve_through(reaching, walls, stock)
+    return carve(made, walls) | through, [*counts, *met]
 
 
 def _facts(counted: list[int], carved: dict[int, Carved]) -> KerfFacts:
@@ -167,9 +205,7 @@ def _first_half(V: Floats, F: Ints, piece: Ints) -> Bools:
     return first
 
 
-def _around(chosen: Bools, strip: Strip, pair: Ints) -> tuple[Strip, Ints]:
-    """Give the walls around some of the pieces, and the pieces on both sides of each quad."""
-    kept = np.flatnonzero(chosen[pair].any(1))
-    number = np.append(np.full(len(pair), -1), -1)
-    number[kept] = np.arange(len(kept))
-    return Strip(strip.corners[kept], strip.rising[kept], number[strip.after[kept]]), pair[kept]
+def _some(strip: Strip, kept: Bools) -> Strip:
+    """Give some quads of a strip."""
+    number = np.append(np.where(kept, np.cumsum(kept) - 1, -1), -1)
+    return Strip(strip.corners[kept], strip.rising[kept], number[strip.after[kept]])

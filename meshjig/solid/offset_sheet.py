@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.smoothing import Smoother
 from meshjig.solid.directions import smooth_normals
 from meshjig.solid.local_thickness import (
@@ -17,9 +18,10 @@ from meshjig.solid.local_thickness import (
     refuse_crowds,
     thinness,
 )
+from meshjig.solid.restore_depth import restore_depth
 from meshjig.solid.rounded_join import JoinFacts, rounded
 from meshjig.solid.surface_distance import SurfaceDistance
-from meshjig.solid.untangle_sheet import FoldFacts, untangle_sheet
+from meshjig.solid.untangle_sheet import FoldFacts, flipped, untangle_sheet
 
 __all__ = ["ShellFacts", "displacement", "offset_sheet"]
 
@@ -67,7 +69,8 @@ def displacement(
 
     Directions are normals averaged over the thickness, positions those of a slightly smoothed copy of the
     surface, so that the noise of a scan is not offset. The depth is held to what the model has room for,
-    then corrected until the sheets are the thickness apart, at creases too. What still folds is unfolded.
+    then corrected until the sheets are the thickness apart, at creases too. What still folds is unfolded, and
+    what came too near by that is laid down again.
 
     Parameters
     ----------
@@ -97,13 +100,17 @@ def displacement(
 
 
 def offset_sheet(
-    V: Floats, F: Ints, thickness: float, join: Literal["miter", "round"]
+    V: Floats, F: Ints, thickness: float, join: Literal["miter", "round"], crowded: bool = False
 ) -> tuple[Floats, Floats, SheetFacts]:
-    """Lay an inner sheet; give D, how far V + D is from the surface (n,), and facts."""
+    """Lay an inner sheet; give D, how far V + D is from the surface (n,), and facts.
+
+    Where the model may be crowded, it is not refused for having no room.
+    """
     smoother = Smoother(V, F)
     d = smooth_normals(V, F, smoother, thickness)
     room = inward_room(V, F, d, enough=thickness)
-    check_thickness(V, F, thickness, room)
+    if not crowded:
+        check_thickness(V, F, thickness, room)
     depth = _depth(F, thickness, room, smoother)
     D = _drift(V, depth, thickness, smoother) - depth[:, None] * d
     gauge = _Gauge(V, F, join)
@@ -117,8 +124,14 @@ def offset_sheet(
     distance = gauge.read(D, _EXACT * thickness)[1] - _EXACT * thickness
     D, folds = untangle_sheet(V, F, D, thickness, distance)
     distance = gauge.read(D, _EXACT * thickness)[1]
-    if folds.crossings_left > _HOPELESS * len(F) and not folds.outer_crossings:
+    hopeless = folds.crossings_left > _HOPELESS * len(F) and not folds.outer_crossings
+    if hopeless and not crowded:
         refuse_crowds(V, F, thickness, room, distance)
+    before, D = D, restore_depth(Mesh(V, F), D, distance, depth, thickness, gauge.surface)
+    if D is not before:
+        leaning = int(flipped(V, F, D).sum()) - int(flipped(V, F, before).sum())
+        folds = folds._replace(folds_left=folds.folds_left + leaning)
+        distance = gauge.read(D, _EXACT * thickness)[1]
     return D, distance, SheetFacts(joined, folds)
 
 

@@ -49,6 +49,7 @@ def shell(
     *,
     side: Side = "in",
     join: Join = "miter",
+    crowded: bool = False,
 ) -> Shell:
     """Give a surface a thickness, to one side or half to each.
 
@@ -61,6 +62,8 @@ def shell(
         The surface is the outer sheet, the inner one, or the middle.
     join : {"miter", "round"}
         Whether an offset crease stays sharp, or turns about the crease at an even distance.
+    crowded : bool
+        Whether the model may be too thin for two such walls anywhere, as where thin parts are cut through.
 
     Returns
     -------
@@ -83,7 +86,7 @@ def shell(
             hint="use the mitered join, or close the model's holes",
         )
     try:
-        walls = _walls(V, F, thickness, side, join)
+        walls = _walls(V, F, thickness, side, join, crowded)
     except TooThick as error:
         raise _advised(V, F, thickness, side, join, error) from None
     D = sum((sign * step for sign, step, _, _ in walls), np.zeros_like(V))
@@ -94,14 +97,16 @@ def shell(
     return Shell(outer, D, facts)
 
 
-def _walls(V: Floats, F: Ints, thickness: float, side: Side, join: Join) -> list[_Wall]:
+def _walls(
+    V: Floats, F: Ints, thickness: float, side: Side, join: Join, crowded: bool = False
+) -> list[_Wall]:
     """Lay a sheet to each side that has one."""
     walls = []
     share = 0.5 if side == "both" else 1.0
     if side != "out":
-        walls.append(_Wall(1.0, *offset_sheet(V, F, share * thickness, join)))
+        walls.append(_Wall(1.0, *offset_sheet(V, F, share * thickness, join, crowded)))
     if side != "in":
-        walls.append(_Wall(-1.0, *offset_sheet(V, F[:, ::-1], share * thickness, join)))
+        walls.append(_Wall(-1.0, *offset_sheet(V, F[:, ::-1], share * thickness, join, crowded)))
     return walls
 
 

@@ -9,6 +9,7 @@ from meshjig.mesh.measure import area_vectors, barycentric, unit
 
 __all__ = ["SurfaceDistance"]
 
+_SURE = 0.05  # mm; nearer points move along the normal
 _ON_RIM = 1e-6  # a barycentric coordinate below it puts a point on the opposite edge
 
 
@@ -46,6 +47,32 @@ class SurfaceDistance:
         """
         squared, face, foot = self._tree.squared_distance(self._V, self._F, points)
         return np.sqrt(squared), face, foot
+
+    def to_depth(
+        self, points: Floats, depth: Floats, share: float, most: float, slack: float = 1.1
+    ) -> Floats:
+        """Move points to a depth behind the surface: down to it, and up to a little more.
+
+        Parameters
+        ----------
+        points : (k, 3) float64, mm
+        depth : (k,) float64, mm
+        share : float, of the way there
+        most : float, mm, to move a point by if the share is 1
+        slack : float, of the depth, that points may be at
+
+        Returns
+        -------
+        (k, 3) float64, mm; points in front of the surface move back through it
+        """
+        distance, face, foot = self.nearest(points)
+        height = np.einsum("ij,ij->i", points - foot, self._normal[face])
+        behind = height < 0
+        sure = (behind & (distance > _SURE))[:, None]
+        way = np.where(sure, (points - foot) / np.maximum(distance, _SURE)[:, None], -self._normal[face])
+        signed = np.where(behind, distance, -distance)
+        step = np.clip(signed, depth, slack * depth) - signed
+        return points + share * np.clip(step, -most, most)[:, None] * way
 
     def behind_planes(self, points: Floats, cap: float = 2.0) -> tuple[Floats, Floats]:
         """Measure how deep points lie under the planes that meet where the surface is nearest.

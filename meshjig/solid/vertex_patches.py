@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshjig.mesh.arrays import Bools, Floats, Ints
+from meshjig.mesh.arrays import Bools, Floats, Ints, connected
 from meshjig.mesh.smoothing import solve_screened
 from meshjig.solid.crossing_pairs import near
 
@@ -65,6 +65,33 @@ class VertexPatches:
         degree, inside = self.degree[patch], values[patch]
         spread = inside - inside.mean(0) + scale
         return inside + solve_screened(rows[:, patch], degree, -(rows @ values), degree[:, None] * spread)
+
+    def filled(self, values: Floats, patch: Ints) -> Floats:
+        """Fill a patch so that each value is the mean of its neighbours', with all outside held.
+
+        A part of the patch that is a whole component of the mesh keeps its values.
+
+        Returns
+        -------
+        (k, d) float64, the patch's values
+        """
+        from scipy.sparse import diags
+        from scipy.sparse.linalg import splu
+
+        rows = self._L[patch]
+        inside = rows[:, patch]
+        held = 1e-9 * self.degree[patch]
+        rhs = held[:, None] * values[patch] + inside @ values[patch] - rows @ values
+        return np.asarray(splu((inside + diags(held)).tocsc()).solve(rhs))
+
+    def mean(self, values: Floats, patch: Ints) -> Floats:
+        """Give the mean of values (n, d) over the neighbours of a patch's vertices, (k, d)."""
+        return values[patch] - (self._L[patch] @ values) / self.degree[patch][:, None]
+
+    def components(self, patch: Ints) -> Ints:
+        """Number the connected parts of a patch, (k,) int64."""
+        a, b = self._L[patch][:, patch].nonzero()
+        return connected(len(patch), a, b)[1]
 
     def bump(self, core: Ints, scale: float) -> tuple[Ints, Floats]:
         """Give a patch and weights on it that are 1 at the core and fall to 0 over about the scale (mm)."""

@@ -10,7 +10,7 @@ from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.halfedges import edges
 from meshjig.mesh.measure import unit
 
-__all__ = ["bends", "bent", "split_bent_walls"]
+__all__ = ["LabelledShell", "bends", "bent", "split_bent_walls"]
 
 _ROUNDS = 24
 _TURN = np.cos(np.radians(25))

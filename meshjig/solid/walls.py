@@ -25,7 +25,9 @@ def most_bend(clearance: float) -> float:
     return clearance / 5
 
 
-def wall_strip(V: Floats, D: Floats, F: Ints, chains: Chains, clearance: float) -> tuple[Strip, Ints]:
+def wall_strip(
+    V: Floats, D: Floats, F: Ints, chains: Chains, clearance: float, past: Floats | None = None
+) -> tuple[Strip, Ints]:
     """Lay quads along borders, as few as their shape allows, and some way beyond the surface.
 
     Parameters
@@ -35,6 +37,8 @@ def wall_strip(V: Floats, D: Floats, F: Ints, chains: Chains, clearance: float) 
     F : (m, 3) int64
     chains : Chains
     clearance : float, mm
+    past : (n,) float64, mm, optional
+        How far walls go past the borders of an open surface; the clearance where it is not given.
 
     Returns
     -------
@@ -44,7 +48,8 @@ def wall_strip(V: Floats, D: Floats, F: Ints, chains: Chains, clearance: float) 
     """
     at, line = _kept(V, D, chains, clearance)
     beyond = [_beyond(X, D, F, chains, at, clearance) for X in (V, V + D)]
-    at, line, shift = _past_open_ends(V, F, chains.vertex, at, line, clearance)
+    past = np.full(len(V), clearance) if past is None else past
+    at, line, shift = _past_open_ends(V, F, chains.vertex, at, line, past)
     v = chains.vertex[at]
     X, Y, u = V[v] + shift, V[v] + D[v] + shift, unit(D[v])
     top, bottom = X - beyond[0][at, None] * u, Y + beyond[1][at, None] * u
@@ -85,7 +90,7 @@ def _beyond(X: Floats, D: Floats, F: Ints, chains: Chains, at: Ints, clearance: 
 
 
 def _past_open_ends(
-    V: Floats, F: Ints, vertex: Ints, at: Ints, line: Ints, reach: float
+    V: Floats, F: Ints, vertex: Ints, at: Ints, line: Ints, reach: Floats
 ) -> tuple[Ints, Ints, Floats]:
     """Lead lines that end on the border of an open surface on into the open; rows, lines, and the way on.
 
@@ -100,7 +105,8 @@ def _past_open_ends(
     last, first = np.flatnonzero(end & leads), np.flatnonzero(start & leads)
     row = np.concatenate([last, first])  # last before first: both may go to the same place
     place = np.concatenate([last + 1, first])
-    shift = np.insert(np.zeros((len(at), 3)), place, reach * outward[vertex[at[row]]], axis=0)
+    v = vertex[at[row]]
+    shift = np.insert(np.zeros((len(at), 3)), place, reach[v, None] * outward[v], axis=0)
     return np.insert(at, place, at[row]), np.insert(line, place, line[row]), shift
 
 

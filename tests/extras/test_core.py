@@ -112,3 +112,22 @@ def test_limbs_too_thin_for_a_core_have_none():
 def test_models_without_room_are_refused(shape):
     with pytest.raises(SolidError, match="no room for a core"):
         make_core(Mesh(*shape), -2.0 * vertex_normals(*shape), CoreShape(0.3, wall=2.4, min_wall=1.2, up=UP))
+
+
+@pytest.mark.parametrize("name", ["sphere", "bowl"])
+def test_core_ends_where_pieces_fill_the_model_from_side_to_side(name):
+    """As a slab through the middle of a model, with skins on both sides of it."""
+    import manifold3d
+
+    outer, D, [whole], _ = core_of(SHAPES[name], 0.6, wall=0.0)
+    low, high = outer.V.min(axis=0), outer.V.max(axis=0)
+    size = (high - low) * [0.5, 0.4, 1.2]
+    slab = manifold3d.Manifold.cube(size.tolist()).translate((low - 0.1 * (high - low)).tolist())
+    wanted = CoreShape(0.6, wall=0.0, min_wall=1.2, up=UP)
+    [part], facts = make_core(outer, D, wanted, Mesh(*arrays(slab)))
+    assert judge([part]).ok
+    core = body(*part)
+    assert core.min_gap(slab, 5.0) >= 0.6
+    assert core.min_gap(walls_of(outer, D), 5.0) >= 0.6
+    left = body(*whole) - slab
+    assert 0.75 * left.volume() < facts.volume_mm3 < left.volume()

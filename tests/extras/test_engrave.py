@@ -6,6 +6,7 @@ import pytest
 from meshjig.check import judge
 from meshjig.check.closed import is_closed_as_stl
 from meshjig.extras.engrave import LETTERING, LabelFacts, engrave
+from meshjig.extras.label_ground import label_grounds
 from meshjig.extras.text import text_outline
 from meshjig.solid.printable import printable
 from tests.check.pieces import turned
@@ -43,7 +44,7 @@ def test_text_is_the_right_way_round(label):
     import shapely.affinity
 
     piece, outer, D = plate(40, 30, 2.0)
-    [(V, F)], facts = engrave([piece], [label], outer, D, FDM)
+    [(V, F)], facts = engrave([piece], [label], label_grounds([piece], outer, D), FDM)
     assert facts == LabelFacts(1, 5.0, {})
     seen = read_from_inside(V, F, 1e-3)
     wanted = text_outline(label, 5.0, 0.8)
@@ -60,7 +61,7 @@ def test_volume_taken_is_that_of_the_groove(seed):
     solid = turned(piece, seed)
     sheet = turned((outer.V, outer.F), seed)
     way = turned((outer.V + D, outer.F), seed)[0] - sheet[0]
-    [(V, F)], _ = engrave([solid], ["35"], type(outer)(*sheet), way, FDM)
+    [(V, F)], _ = engrave([solid], ["35"], label_grounds([solid], type(outer)(*sheet), way), FDM)
     outline = text_outline("35", 5.0, 0.8)
     expected = 0.4 * (outline.area - 0.62 * 0.4 * outline.length / 2)
     assert volume(*solid) - volume(V, F) == pytest.approx(expected, rel=0.05)
@@ -78,7 +79,7 @@ def test_volume_taken_is_that_of_the_groove(seed):
 )
 def test_engraved_pieces_are_as_sound_as_before(made):
     piece, outer, D = made
-    [(V, F)], facts = engrave([piece], ["128"], outer, D, FDM, min_wall=1.2)
+    [(V, F)], facts = engrave([piece], ["128"], label_grounds([piece], outer, D), FDM, min_wall=1.2)
     assert facts.engraved == 1
     assert len(F) > len(piece[1])
     V, F = printable(V, F)
@@ -90,7 +91,7 @@ def test_engraved_pieces_are_as_sound_as_before(made):
 @pytest.mark.parametrize("radius", [15, 25, 60])
 def test_depth_is_even_on_a_curved_sheet(radius):
     piece, outer, D = bowl(radius, 2.0, 20_000)
-    [(V, _)], _ = engrave([piece], ["8"], outer, D, FDM)
+    [(V, _)], _ = engrave([piece], ["8"], label_grounds([piece], outer, D), FDM)
     deep = np.linalg.norm(V, axis=1) - (radius - 2.0)
     floor = deep[(deep > 0.15) & (deep < 1.0)]
     assert len(floor) > 20
@@ -102,7 +103,7 @@ def test_depth_is_even_on_a_curved_sheet(radius):
 def test_no_more_than_a_third_of_the_wall_is_taken_and_the_least_wall_is_left(thickness):
     piece, outer, D = plate(40, 30, thickness)
     for min_wall in (0.0, 0.8, 1.6):
-        [(V, _)], facts = engrave([piece], ["8"], outer, D, FDM, min_wall=min_wall)
+        [(V, _)], facts = engrave([piece], ["8"], label_grounds([piece], outer, D), FDM, min_wall=min_wall)
         left = -V[(V[:, 2] < -1e-6) & (V[:, 2] > -thickness + 1e-6), 2]
         possible = min(0.35 * thickness, thickness - min_wall) >= 0.6 * 0.4
         assert facts.engraved == possible
@@ -114,19 +115,21 @@ def test_no_more_than_a_third_of_the_wall_is_taken_and_the_least_wall_is_left(th
 
 def test_piece_without_room_is_left_alone_and_said_so():
     small, outer, D = plate(6, 5, 2.0)
-    [(V, F)], facts = engrave([small], ["88"], outer, D, FDM)
+    [(V, F)], facts = engrave([small], ["88"], label_grounds([small], outer, D), FDM)
     assert V is small[0]
     assert F is small[1]
     assert facts.skipped == {"88": "its inner side is too small or too curved"}
     elsewhere = Shape(small[0] + [0, 0, 50.0], small[1])
-    assert engrave([elsewhere], ["88"], outer, D, FDM)[1].skipped == {"88": "it has no inner side"}
+    assert engrave([elsewhere], ["88"], label_grounds([elsewhere], outer, D), FDM)[1].skipped == {
+        "88": "it has no inner side"
+    }
 
 
 def test_text_shrinks_to_the_least_height_and_no_further():
     heights = []
     for side in (10.0, 6.0, 5.5, 4.5):
         piece, outer, D = plate(side, side, 2.0)
-        heights.append(engrave([piece], ["4"], outer, D, FDM)[1].least_height_mm)
+        heights.append(engrave([piece], ["4"], label_grounds([piece], outer, D), FDM)[1].least_height_mm)
     assert heights == [5.0, 4.5, 4.0, None]
 
 
@@ -137,7 +140,7 @@ def test_order_and_outer_sides_stay():
     sheet = type(outer)(
         np.concatenate([outer.V, outer.V + away]), np.concatenate([outer.F, outer.F + len(outer.V)])
     )
-    made, facts = engrave(both, ["1", "2"], sheet, np.concatenate([D, D]), FDM)
+    made, facts = engrave(both, ["1", "2"], label_grounds(both, sheet, np.concatenate([D, D])), FDM)
     assert facts.engraved == 2
     for (V, F), (W, _) in zip(made, both, strict=True):
         assert is_closed_as_stl(V, F)

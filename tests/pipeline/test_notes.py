@@ -4,10 +4,12 @@ import re
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from meshjig import make_puzzle
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
+from meshjig.pipeline.ground import limit_asked
 from meshjig.pipeline.notes import lock_note, thin_notes
 from meshjig.scan.thin_share import ThinShare
 from tests.meshes import sphere
@@ -72,3 +74,27 @@ def test_where_the_model_is_thin_the_note_says_how_much_and_what_cures_it():
 def test_walls_asked_for_thinner_than_the_least_wall_are_said():
     (note,) = thin_notes(THICK, Options(thickness=1.0))
     assert "walls of 1 mm were asked for, thinner than the 1.2 mm of --min-wall" in note
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "cure"),
+    [
+        ("side", "out", "--side in"),
+        ("clearance", 0.0, "a larger one"),
+        ("clearance_method", "domain", "solid cuts it through"),
+    ],
+)
+def test_what_keeps_thin_parts_from_being_cut_through_is_said(option, value, cure):
+    V, F = sphere(1000)
+    flat = V * [1.0, 0.8, 0.08], F
+    asked = {"pieces": 6, "size": 60, "thickness": 0.8, "process": "sla", "layout": "tiles", option: value}
+    report = make_puzzle(flat, **asked).report
+    assert report["through"]["limit_mm"] == 0
+    (note,) = [note for note in report["notes"] if "cut through" in note]
+    assert "thinner than 2.4 mm" in note
+    assert cure in note
+
+
+def test_nothing_is_said_of_thin_parts_that_were_not_to_be_cut_through():
+    assert limit_asked(Options(through="off", side="out")) == 0
+    assert not thin_notes(THICK, Options(side="out"), ThinShare(6.0, 0.0, 150.0, None, None))

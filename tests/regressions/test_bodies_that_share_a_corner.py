@@ -26,18 +26,20 @@ def star(points):
 
 def refused(bodies, thickness):
     with pytest.raises(SolidError, match=f"walls of {thickness:g} mm are too thick") as error:
-        plan_puzzle(star(bodies), Options.of(pieces=4 * bodies, thickness=thickness))
+        plan_puzzle(star(bodies), Options.of(pieces=4 * bodies, thickness=thickness, through="off"))
     return str(error.value)
 
 
 def test_what_is_advised_makes_a_sound_puzzle():
     advised = float(re.search(r"a thickness of ([0-9.]+) mm works", refused(2, 6.0))[1])
-    report = make_puzzle(star(2), pieces=8, thickness=advised, min_wall=0).report  # corners are thin
+    report = make_puzzle(
+        star(2), pieces=8, thickness=advised, min_wall=0, through="off"
+    ).report  # corners are thin
     assert report["ok"], report["failures"]
     assert report["exempt"] == {}
 
 
 @pytest.mark.slow
 def test_thinner_walls_are_not_called_too_thick_where_they_work():
-    assert make_puzzle(star(5), pieces=20, thickness=1.0, min_wall=0).report["ok"]
+    assert make_puzzle(star(5), pieces=20, thickness=1.0, min_wall=0, through="off").report["ok"]
     assert "so are thinner ones" not in refused(5, 6.0)

@@ -1,7 +1,8 @@
 import numpy as np
+import pytest
 
-from meshjig.solid.vertex_patches import submesh_around
-from tests.meshes import joined, moved, sphere, torus
+from meshjig.solid.vertex_patches import VertexPatches, submesh_around
+from tests.meshes import disc, joined, moved, sphere, torus
 
 
 def test_a_part_holds_where_it_was_cut_out():
@@ -37,3 +38,33 @@ def test_pairs_of_both_sheets_are_renumbered():
     pairs = np.array([[a, b + len(F)], [a + len(F), b + len(F)], [a, far]])
     k = len(part.faces)
     assert part.inside(pairs, len(F)).tolist() == [[3, 5 + k], [3 + k, 5 + k]]
+
+
+def test_a_filled_patch_is_linear_where_its_border_is():
+    V, F = disc(2000)
+    patches = VertexPatches(V, F)
+    patch = patches.around(np.array([int(np.linalg.norm(V, axis=1).argmin())]), 8.0)
+    values = 3.0 * V[:, :2] + 1.0
+    spoilt = values.copy()
+    spoilt[patch] = -50.0
+    filled = patches.filled(spoilt, patch)
+    assert len(patch) > 20
+    assert np.abs(filled - values[patch]).max() < 0.1 * np.ptp(values[patch])
+    spoilt[patch] = filled
+    assert patches.mean(spoilt, patch) == pytest.approx(filled, abs=1e-5)
+
+
+def test_a_patch_that_is_all_there_is_keeps_its_values():
+    V, F = sphere(100)
+    filled = VertexPatches(V, F).filled(np.full((len(V), 1), 7.0), np.arange(len(V)))
+    assert filled == pytest.approx(7.0)
+
+
+def test_patches_far_apart_are_two_components():
+    V, F = torus(2000)
+    patches = VertexPatches(V, F)
+    far = int(np.linalg.norm(V - V[0], axis=1).argmax())
+    patch = patches.around(np.array([0, far]), 5.0)
+    component = patches.components(patch)
+    assert component.max() == 1
+    assert (component == component[list(patch).index(far)]).sum() == len(patches.around(np.array([far]), 5.0))
