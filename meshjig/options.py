@@ -138,7 +138,7 @@ class Options(BaseModel):
     side: Literal["in", "out", "both"] = Field("in", description="where the thickness goes from the surface")
     through: Annotated[FiniteFloat, Field(gt=0, le=LONGEST)] | Literal["auto", "off"] = Field(
         "auto",
-        description="cut through parts thinner than this, mm; auto: three times the thickness",
+        description="cut through parts thinner than this, mm; auto: than two least walls and a gap",
     )
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")

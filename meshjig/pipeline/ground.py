@@ -17,7 +17,7 @@ from meshjig.thin import ThroughParts, large_parts, through_parts
 
 __all__ = ["Ground", "limit_asked", "limit_of", "surface_to_lay_out", "why_not_through"]
 
-_THICKNESSES = 3.0  # of the walls: thinner parts are cut through, if nothing else is said
+_BELOW = 1.0  # mm, than the limit: thinner parts are solid; between that and the limit there is a hollow
 _LARGE = 0.25  # of a piece: smaller far sides are laid out with the rest, else cells would be rings
 _KEPT, _CRUMB = 0.5, 0.02  # of a piece: what it must keep in one part, and what may come off
 
@@ -31,8 +31,8 @@ def limit_asked(options: Options) -> float:
     """Give the same as it was asked for, whether other options let parts be cut through or not."""
     if options.through == "off":
         return 0.0
-    asked = _THICKNESSES * options.thickness if options.through == "auto" else options.through
-    return max(asked, 2 * options.min_wall + options.clearance)
+    least = 2 * options.min_wall + options.clearance  # below it two walls can't be made
+    return least if options.through == "auto" else max(options.through, least)
 
 
 def why_not_through(options: Options) -> str | None:
@@ -57,6 +57,7 @@ class Ground:
     face: Ints  # (m,), the face of the surface that each is
     thin: ThroughParts | None
     limit: float  # mm
+    solid: float  # mm; parts thinner than that have no hollow
 
     def faces_of(self, layout: Layout) -> Ints:
         """Give the face of the surface that every face of a layout's cut lies in, (k,)."""
@@ -111,9 +112,12 @@ def surface_to_lay_out(surface: Mesh, options: Options) -> Ground:
         certain = 2 * options.min_wall + options.clearance
         found = through_parts(surface, limit - outside, certain - outside)
     if found is None or found[1].far.all():  # as where walls are thicker than the model
-        return Ground(surface, surface, np.arange(len(surface.V)), np.arange(len(surface.F)), None, limit)
+        return Ground(
+            surface, surface, np.arange(len(surface.V)), np.arange(len(surface.F)), None, limit, limit
+        )
     surface, thin = found
     area = options.piece_size**2 if options.piece_size else float(surface.areas.sum()) / options.pieces
     face = np.flatnonzero(~large_parts(surface, thin.far, _LARGE * area))
     F, vertex = fans(surface.F[face])
-    return Ground(surface, Mesh(surface.V[vertex], F), vertex, face, thin, limit)
+    solid = max(limit - _BELOW, min(limit, 2 * options.thickness))
+    return Ground(surface, Mesh(surface.V[vertex], F), vertex, face, thin, limit, solid)

@@ -26,7 +26,6 @@ __all__ = ["ThroughFacts", "solid_parts", "stock_of", "strays_on", "through_fact
 
 _FILLED = 0.8  # of the way to another side: what is filled below a face belongs to its piece
 _PAST = 2.0  # mm, that walls through go past the rim of what is laid out: flanks are as wide as that
-_SOLID = 1.0  # mm less than the limit: thinner parts are solid, between that and the limit there is a hollow
 
 
 def stock_of(
@@ -54,7 +53,7 @@ def stock_of(
     outside = Mesh(sheets.outer, ground.surface.F)
     ways = ways_through(outside, thin.direction, thin.owns, thin.far, ground.limit)
     to_far = -ways.depth[:, None] * ways.direction
-    plugged = ways.solid(*outside) & thin.owns & (thin.depth < ground.limit - _SOLID)
+    plugged = ways.solid(*outside) & thin.owns & (thin.depth < ground.solid)
     wall = wall_of_model(outside, sheets.D, plugged, to_far)
     deep = past_far_side(sheets.D, ways.direction, ways.length, ways.free)
     V, deep = (layout.carried(X[ground.vertex], cut) for X in (sheets.outer, deep))

@@ -8,13 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
-from meshjig.mesh.booleans import Body, arrays, body
+from meshjig.mesh.booleans import Body, arrays, body, largest, sound
 from meshjig.mesh.halfedges import border_halfedges, compact
 from meshjig.mesh.measure import unit
 from meshjig.mesh.mesh import Mesh
 from meshjig.mesh.pieces import Pieces
 from meshjig.solid.border_chains import Chains, edge_lines
 from meshjig.solid.carve_gap import Carved, Walls, carved_body, cutters_of_pairs, taken_apart, united
+from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.separate import separate
 from meshjig.solid.solidify import OUTER, Solid, solidify
 
@@ -23,6 +24,8 @@ __all__ = ["Rim", "Sheet", "Stock", "carve_through", "joined_lines", "rim_lines"
 _AROUND = 8.0  # mm, that a piece may be larger than what lies under its faces
 _ON = 0.02  # mm; a point this near to a body lies on it
 _RAISED = 0.02  # mm, that what belongs to others begins above their faces: no two faces fall together
+_COARSER = (0.02, 0.04)  # mm; details that are dissolved where a piece would cross itself otherwise
+_DEPTH = 0.005  # mm; shallower crossings are rounding
 _STRAY = 2.0  # mm3, of a part that is worth keeping
 _MARKS = 60  # points of a piece's faces that tell which part is the piece
 
@@ -122,9 +125,21 @@ def carve_through(solids: dict[int, Solid], walls: Walls, stock: Stock) -> dict[
         if first.state != "clean":
             parts = taken_apart([cutter for key in keys for cutter in of_pair[key]], walls)
             again = carved_body(start, parts, "rounded", own_part)
-            first = again if again.state == "rounded" else first
+            first = again if again.state == "rounded" else _coarser(first)
         carved[i] = first._replace(strays=tuple(strays))
     return carved
+
+
+def _coarser(piece: Carved) -> Carved:
+    """Dissolve larger details of a piece until it does not cross itself, if that helps."""
+    if piece.state != "crosses":
+        return piece
+    for shortest in _COARSER:
+        main, _, _ = largest(body(piece.V, piece.F).simplify(shortest))
+        V, F = arrays(main)
+        if sound(main) and not (crossing_pairs(V, F)[1] > _DEPTH).any():
+            return piece._replace(V=V, F=F, state="rounded")
+    return piece
 
 
 def separated(carved: dict[int, Carved], stock: Stock, clearance: float) -> dict[int, Carved]:

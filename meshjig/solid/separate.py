@@ -16,7 +16,13 @@ __all__ = ["separate"]
 
 _ENOUGH = 0.97  # of the clearance
 _INSCRIBED = 0.933  # of the corners' distance: how far the faces of a ball of 42 corners are from its middle
-_SHORTEST = (0.003, 0.005, 0.01)  # mm; details below the first, or a later one where it would cross itself
+_SHORTEST = (
+    0.003,
+    0.005,
+    0.01,
+    0.02,
+    0.04,
+)  # mm; details below the first, or a later one where it would cross itself
 _DEPTH = 0.005  # mm; shallower crossings are rounding
 _MOST = 4000  # faces around which room is made
 

@@ -91,7 +91,7 @@ def test_what_keeps_thin_parts_from_being_cut_through_is_said(option, value, cur
     report = make_puzzle(flat, **asked).report
     assert report["through"]["limit_mm"] == 0
     (note,) = [note for note in report["notes"] if "cut through" in note]
-    assert "thinner than 2.4 mm" in note
+    assert "of the model is thinner than 1." in note
     assert cure in note
 
 

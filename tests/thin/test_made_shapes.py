@@ -52,7 +52,7 @@ def made(name, layout="cells"):
     V, F = CASES[name].mesh
     size = float(np.ptp(V, axis=0).max())
     puzzle = make_puzzle(
-        (V, F), size=size, pieces=CASES[name].pieces, clearance=GAP, layout=layout, through="auto"
+        (V, F), size=size, pieces=CASES[name].pieces, clearance=GAP, layout=layout, through=6.0
     )
     return puzzle, [Mesh(piece.V, piece.F) for piece in puzzle.pieces], Model.of((V, F), {"size": size})
 
