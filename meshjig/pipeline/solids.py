@@ -24,7 +24,7 @@ from meshjig.solid.wall_edges import LabelledShell
 
 __all__ = ["Beside", "Solids", "beside_charts", "leave_gaps", "make_solids"]
 
-_HANDED_OVER = 3  # times that solids are made, where parts came off
+_HANDED_OVER = 3  # times that solids are made at most, where parts came off
 
 
 class Solids(NamedTuple):
@@ -76,13 +76,13 @@ def leave_gaps(layout: Layout, options: Options) -> Parts:
 def make_solids(layout: Layout, parts: Parts, ground: Ground, sheets: Shell, options: Options) -> Solids:
     """Give the pieces their thickness; parts of those that reach through may be handed over."""
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
-    for _ in range(_HANDED_OVER):
+    for left in reversed(range(_HANDED_OVER)):
         cut = parts.cut
         D, stock = stock_of(ground, layout, cut, sheets, options.clearance)
         outer = layout.carried(sheets.outer[ground.vertex], cut)
         label = ground.labels(layout) if stock else parts.piece_of_face
         solids, facts, strays = carve_pieces(LabelledShell(outer, cut.F, label, D), clearance, stock)
-        if not strays:
+        if not strays or not left:
             break
         layout = part_off(layout, strays_on(layout, outer, solids, strays), options.min_piece)
         parts = leave_gaps(layout, options)
