@@ -33,11 +33,10 @@ from thin.pictures import draw
 from thin.run import Run, make
 from thin.walls import thin_share
 
-from meshjig import Options, Puzzle
+from meshjig import Puzzle
 from meshjig.mesh.mesh import Mesh, concatenate
 from meshjig.output.pictures.view import up_of
 
-_LIMIT = 2.5  # thicknesses: thin, where --through is a word or no option yet
 _MOST_THIN, _MOST_LOST = 0.001, 0.005
 
 
@@ -91,8 +90,6 @@ def _made(mesh: Path, name: str, options: dict[str, Any], folder: Path, a: argpa
 
 
 def _compared(mesh: Path, folder: Path, options: dict[str, Any], run: Run) -> str:
-    if "through" not in Options.model_fields:
-        return " (no --through yet: nothing to compare with)"
     off = make(mesh, folder, options | {"through": "off"})
     if off.said:
         return f" (off: none: {off.said})"
@@ -112,7 +109,7 @@ def _row(folder: Path, name: str, a: argparse.Namespace, mesh: Path | None = Non
     pieces = [Mesh(piece.V, piece.F) for piece in puzzle.pieces]
     thin = thin_share(model, pieces, asked["min_wall"])
     bare = uncovered(model, pieces, asked["clearance"])
-    limit = a.limit or _limit(asked)
+    limit = a.limit or _limit(report)
     lost = lost_volume(model, pieces, asked["clearance"], limit)
     verdict = "ok" if report["ok"] else ", ".join(report["failures"])
     walls = f"{len(pieces)} pieces, {report['checks']['thin_walls']} with thin walls"
@@ -134,10 +131,10 @@ def _row(folder: Path, name: str, a: argparse.Namespace, mesh: Path | None = Non
     return not report["ok"] or thin.share > _MOST_THIN or lost.share > _MOST_LOST
 
 
-def _limit(asked: dict[str, Any]) -> float:
-    """Give the thickness below which parts are cut through, mm."""
-    through = asked.get("through")
-    return float(through) if isinstance(through, float | int) else _LIMIT * float(asked["thickness"])
+def _limit(report: dict[str, Any]) -> float:
+    """Give the thickness below which parts were cut through, or else could not be made of two walls, mm."""
+    asked = report["options"]
+    return float(report["through"]["limit_mm"] or 2 * asked["min_wall"] + asked["clearance"])
 
 
 if __name__ == "__main__":

@@ -96,7 +96,7 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
             pictures.atlas(layout.atlas)
         else:
             with stages("charts"):
-                atlas = work_atlas(scan, ground.mesh, longest, options)
+                atlas = work_atlas(scan, ground, longest, options)
             pictures.atlas(atlas)
             layout = tile_layout(atlas, options, stages)
         pictures.layout(layout)

@@ -64,7 +64,7 @@ def plan_puzzle(mesh: Any, options: Options) -> Report:
     if options.layout == "cells":
         n = _cells(ground, n, options)
     else:
-        work_atlas(scan, ground.mesh, longest, options)
+        work_atlas(scan, ground, longest, options)
     sheets = shell(
         surface.V,
         surface.F,

@@ -13,6 +13,7 @@ from meshjig.mesh.measure import face_areas
 from meshjig.mesh.subdivide import refine_atlas, refine_long_edges
 from meshjig.mesh.types import Mesh
 from meshjig.options import Options
+from meshjig.pipeline.ground import Ground
 from meshjig.pipeline.preflight import piece_size, refuse_small_plate, refuse_too_small_pieces
 from meshjig.pipeline.prepare import chart
 from meshjig.scan import Scan
@@ -21,7 +22,6 @@ __all__ = ["work_atlas", "work_mesh"]
 
 MUCH_FINER = 1.1  # times as many faces: more freedom for charts
 
-_WHOLE = 1 - 1e-6  # of the area; a smaller surface lacks the far sides of thin parts
 _NEEDLE = 1000.0  # times as long as wide
 _MOST_NEEDLES = 0.05  # of the faces; meshes that people model or scan have none
 _FEW = 20_000  # faces, of which even needles do no harm
@@ -56,13 +56,13 @@ def work_mesh(mesh: Mesh, options: Options) -> tuple[Mesh, float]:
     return surface, size / 4
 
 
-def work_atlas(scan: Scan, surface: Mesh, longest: float, options: Options) -> MappedAtlas:
-    """Chart the surface; before it was refined, where that makes little difference to its faces.
+def work_atlas(scan: Scan, ground: Ground, longest: float, options: Options) -> MappedAtlas:
+    """Chart what is laid out of a surface; before it was refined, where that makes little difference to it.
 
     So a few long edges don't change the charts that `info` has shown.
     """
-    if len(surface.F) > MUCH_FINER * len(scan.mesh.F) or surface.areas.sum() < _WHOLE * scan.mesh.areas.sum():
-        return chart(replace(scan, mesh=surface), options)
+    if ground.thin is not None or len(ground.mesh.F) > MUCH_FINER * len(scan.mesh.F):
+        return chart(replace(scan, mesh=ground.mesh), options)
     return refine_atlas(chart(scan, options), longest)
 
 

@@ -117,6 +117,7 @@ def test_a_folder_is_judged_and_drawn(plate, tmp_path):
         trimesh.Trimesh(piece.V, piece.F, process=False).export(tmp_path / "made" / "pieces" / name)
     report = {"meshjig": "0", "options": ASKED, "ok": True, "failures": {}, "checks": {"thin_walls": 0}}
     report |= {"input": {"file": str(plate)}, "pieces": [{"id": i + 1} for i in range(len(cut))]}
+    report |= {"through": {"limit_mm": 5.0}}
     (tmp_path / "made" / "report.json").write_text(json.dumps(report), encoding="utf-8")
     command = [sys.executable, str(ROOT / "scripts/thin_trial.py"), str(tmp_path / "made")]
     command += ["--pictures", str(tmp_path / "drawn")]
