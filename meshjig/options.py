@@ -16,10 +16,10 @@ __all__ = ["EITHER", "PROCESSES", "OptionKeywords", "Options"]
 Preset = dict[str, Any]
 
 PROCESSES: dict[str, Preset] = {
-    "fdm": {"thickness": 2.0, "clearance": 0.2, "min_neck": 2.0, "min_wall": 1.2},
-    "sla": {"thickness": 2.0, "clearance": 0.15, "min_neck": 0.5, "min_wall": 0.8},
-    "polyjet": {"thickness": 2.5, "clearance": 0.2, "min_neck": 0.5, "min_wall": 0.8},
-    "foam": {"thickness": 7.0, "clearance": 0.2, "min_neck": 3.0, "min_wall": 3.0},
+    "fdm": {"thickness": 2.0, "clearance": 0.2, "min_neck": 2.0, "min_wall": 1.2, "give": 0.05},
+    "sla": {"thickness": 2.0, "clearance": 0.15, "min_neck": 0.5, "min_wall": 0.8, "give": 0.0},
+    "polyjet": {"thickness": 2.5, "clearance": 0.2, "min_neck": 0.5, "min_wall": 0.8, "give": 0.0},
+    "foam": {"thickness": 7.0, "clearance": 0.2, "min_neck": 3.0, "min_wall": 3.0, "give": 1.0},
 }
 
 
@@ -47,10 +47,12 @@ class OptionKeywords(TypedDict, total=False):
     clearance: float | None
     min_neck: float | None
     min_wall: float | None
+    give: float | None
     clearance_method: Literal["stretch", "domain", "solid"] | None
     join: Literal["miter", "round"] | None
     side: Literal["in", "out", "both"] | None
     through: float | Literal["auto", "off"] | None
+    assembly: Literal["straight", "any", "off"] | None
     process: str | None
     resurface: bool | None
     layout: Literal["cells", "tiles"] | None
@@ -81,13 +83,13 @@ class OptionKeywords(TypedDict, total=False):
     guide: bool | None
     turntable: bool | None
     curves: bool | None
-    processes: Mapping[str, Mapping[str, float]]  # of one's own: a name, and any of their four figures
+    processes: Mapping[str, Mapping[str, float]]  # of one's own: a name, and any of their five figures
 
 
 class Options(BaseModel):
     """How a puzzle is made.
 
-    Lengths are in mm. Thickness, clearance, min_neck and min_wall are the process's where they are not
+    Lengths are in mm. Thickness, clearance, min_neck, min_wall and give are the process's where they are not
     given. What a process of one's own leaves out is as for fdm.
     """
 
@@ -130,6 +132,9 @@ class Options(BaseModel):
     clearance: FiniteFloat = Field(0.2, ge=0, le=LONGEST, description="whole gap between two pieces, mm")
     min_neck: FiniteFloat = Field(2.0, ge=0, le=LONGEST, description="least width of a knob's neck, mm")
     min_wall: FiniteFloat = Field(1.2, ge=0, le=LONGEST, description="least thickness that prints well, mm")
+    give: FiniteFloat = Field(
+        0.05, ge=0, le=LONGEST, description="how far pieces may press into each other as they go in, mm"
+    )
     clearance_method: Literal["stretch", "domain", "solid"] = Field(
         "solid",
         description="how the gap is made: cut from the solids, or laid out in the plane (stretch, domain)",
@@ -139,6 +144,10 @@ class Options(BaseModel):
     through: Annotated[FiniteFloat, Field(gt=0, le=LONGEST)] | Literal["auto", "off"] = Field(
         "auto",
         description="cut through parts thinner than this, mm; auto: than two least walls and a gap",
+    )
+    assembly: Literal["straight", "any", "off"] = Field(
+        "any",
+        description="motions by which pieces must go in: straight ones, any, or off for walls along normals",
     )
     process: str = Field("fdm", description="how it is made: fdm, sla, polyjet, foam, or one from --config")
     resurface: bool = Field(False, description="rebuild the outer surface of a mesh that crosses itself")
@@ -242,7 +251,7 @@ class Options(BaseModel):
         ----------
         **given
             The fields; and ``processes``, a dict of processes of one's own: name to a dict with any of
-            thickness, clearance, min_neck and min_wall.
+            thickness, clearance, min_neck, min_wall and give.
 
         Raises
         ------

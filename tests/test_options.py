@@ -59,11 +59,15 @@ OWN = {"resin-x": {"clearance": 0.12, "min-wall": 0.6}}
 def test_a_process_of_ones_own_sets_what_it_has_and_fdm_the_rest():
     options = Options.of(process="resin-x", processes=OWN)
     assert (options.process, options.clearance, options.min_wall) == ("resin-x", 0.12, 0.6)
-    assert (options.thickness, options.min_neck) == (
-        PROCESSES["fdm"]["thickness"],
-        PROCESSES["fdm"]["min_neck"],
-    )
+    fdm = PROCESSES["fdm"]
+    assert (options.thickness, options.min_neck, options.give) == (fdm["thickness"], fdm["min_neck"], 0.05)
     assert Options.of(process="resin-x", processes=OWN, clearance=0.3).clearance == 0.3
+
+
+@pytest.mark.parametrize(("process", "give"), [("fdm", 0.05), ("sla", 0), ("polyjet", 0), ("foam", 1)])
+def test_only_what_is_soft_gives(process, give):
+    assert Options.of(process=process).give == give
+    assert Options.of(process=process, give=0.3).give == 0.3
 
 
 def test_an_unknown_process_names_those_that_are_known():
@@ -72,8 +76,8 @@ def test_an_unknown_process_names_those_that_are_known():
 
 
 @pytest.mark.parametrize("processes", [{"x": {"colour": 3}}, {"x": 3}, ["x"]])
-def test_a_process_has_four_figures_only(processes):
-    with pytest.raises(OptionError, match=r"^processes: .*min_neck, min_wall"):
+def test_a_process_has_five_figures_only(processes):
+    with pytest.raises(OptionError, match=r"^processes: .*min_neck, min_wall, give"):
         Options.of(processes=processes)
 
 

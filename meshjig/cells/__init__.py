@@ -3,6 +3,6 @@
 from meshjig.cells.cell_mesh import CellMesh, Seeds
 from meshjig.cells.flatten.cell_atlas import cell_atlas
 from meshjig.cells.grow import grow_cells
-from meshjig.cells.knobs.knob_outlines import KnobLayout, knob_outlines
+from meshjig.cells.knobs.knob_outlines import KnobLayout, WaysOut, knob_outlines
 
-__all__ = ["CellMesh", "KnobLayout", "Seeds", "cell_atlas", "grow_cells", "knob_outlines"]
+__all__ = ["CellMesh", "KnobLayout", "Seeds", "WaysOut", "cell_atlas", "grow_cells", "knob_outlines"]

@@ -34,6 +34,7 @@ def grow_cells(
     seed: int = 0,
     style: Style = "cvt",
     crease_aware: bool = False,
+    off_ridges: float = 0.0,
     targets: Floats | None = None,
     start: Seeds | None = None,
 ) -> CellMesh:
@@ -54,6 +55,8 @@ def grow_cells(
         Where seeds are: "cvt" spreads them evenly.
     crease_aware : bool
         Let borders keep off creases, or follow them.
+    off_ridges : float
+        Let cells not reach over ridges: spacings that a radian of bend adds to a path across it.
     targets : (N,) float64, optional
         The areas of the cells relative to one another; with start.
     start : Seeds, optional
@@ -76,7 +79,7 @@ def grow_cells(
         raise OptionError("targets: there must be one for every cell of start", hint="give both")
     spacing = float(np.sqrt(mesh.areas.sum() / n))
     fine, parent = refine(mesh, _EDGE * spacing, shorter=False)
-    s = surface(fine, _BEND * spacing if crease_aware else 0.0)
+    s = surface(fine, max(_BEND if crease_aware else 0.0, off_ridges) * spacing)
     if start is not None:
         grown = grown_again(s, start, spacing, targets)
     elif style == "quad":

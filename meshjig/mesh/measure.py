@@ -7,6 +7,7 @@ import numpy as np
 from meshjig.mesh.arrays import Floats, Ints
 
 __all__ = [
+    "angle_normals",
     "area_vectors",
     "barycentric",
     "corner_angles",
@@ -15,6 +16,7 @@ __all__ = [
     "face_sides",
     "interpolate",
     "mesh_volume",
+    "prism_volumes",
     "signed_area",
     "singular_values",
     "sums",
@@ -73,6 +75,13 @@ def vertex_normals(V: Floats, F: Ints) -> Floats:
     return unit(out)
 
 
+def angle_normals(V: Floats, F: Ints) -> Floats:
+    """Give unit vertex normals weighted by angle, (n, 3): however a surface is split, they stay the same."""
+    weighted = corner_angles(V, F)[:, :, None] * unit(area_vectors(V, F))[:, None]
+    corner, N = F.ravel(), weighted.reshape(-1, 3)
+    return unit(np.stack([np.bincount(corner, x, len(V)) for x in N.T], 1))
+
+
 def corner_angles(V: Floats, F: Ints) -> Floats:
     """Give the angle at each corner of each face, (m, 3), radians."""
     corner = V[F]
@@ -84,6 +93,15 @@ def mesh_volume(V: Floats, F: Ints) -> float:
     """Give the signed volume of a closed mesh, mm3; positive when faces point outward."""
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def prism_volumes(V: Floats, D: Floats, F: Ints) -> Floats:
+    """Give the volume below each face down to V + D, (m,), mm3; positive where D leads inward."""
+    a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
+    low = V + D
+    d, e, f = low[F[:, 0]], low[F[:, 1]], low[F[:, 2]]
+    parts = ((b, c, f), (b, f, e), (e, f, d))  # three tetrahedra with a
+    return -sum(np.einsum("ij,ij->i", x - a, np.cross(y - a, z - a)) for x, y, z in parts) / 6
 
 
 def signed_area(ring: Floats) -> float:

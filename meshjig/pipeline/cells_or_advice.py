@@ -7,7 +7,7 @@ from meshjig.errors import CutError, OptionError
 from meshjig.layout.cells import cell_layout
 from meshjig.layout.layout import Layout
 from meshjig.mesh.halfedges import border_halfedges
-from meshjig.mesh.types import Mesh
+from meshjig.mesh.types import Floats, Mesh
 from meshjig.options import Options
 from meshjig.pipeline.ground import Ground
 from meshjig.pipeline.preflight import refuse_too_small_pieces
@@ -19,7 +19,7 @@ _MORE = (2, 4, 8)  # times as many pieces, which are tried
 _MOST = 400  # pieces that are tried: more take longer than a maker wants to wait for a refusal
 
 
-def cells_or_advice(surface: Mesh, options: Options, stages: Stages) -> Layout:
+def cells_or_advice(surface: Mesh, options: Options, stages: Stages, up: Floats | None = None) -> Layout:
     """Cut a surface into cells with knobs.
 
     Parameters
@@ -34,13 +34,15 @@ def cells_or_advice(surface: Mesh, options: Options, stages: Stages) -> Layout:
         Some cells are no discs; "ask for more pieces" is said only where as many were found to do.
     """
     try:
-        return cell_layout(surface, options, stages)
+        return cell_layout(surface, options, stages, up)
     except CutError as error:
         with stages("advice"):
             raise refuse_cells(error, surface, options) from None
 
 
-def cells_on(ground: Ground, options: Options, stages: Stages) -> tuple[Ground, Layout]:
+def cells_on(
+    ground: Ground, options: Options, stages: Stages, up: Floats | None = None
+) -> tuple[Ground, Layout]:
     """Cut a surface into cells, without the far sides of thin parts where that can be.
 
     Returns
@@ -49,12 +51,12 @@ def cells_on(ground: Ground, options: Options, stages: Stages) -> tuple[Ground, 
     layout : Layout, of it
     """
     if ground.mesh is ground.surface:
-        return ground, cells_or_advice(ground.mesh, options, stages)
+        return ground, cells_or_advice(ground.mesh, options, stages, up)
     try:
-        return ground, cell_layout(ground.mesh, options, stages)
+        return ground, cell_layout(ground.mesh, options, stages, up)
     except CutError:
         ground = ground.whole()
-        return ground, cells_or_advice(ground.mesh, options, stages)
+        return ground, cells_or_advice(ground.mesh, options, stages, up)
 
 
 def refuse_cells(error: CutError, surface: Mesh, options: Options) -> CutError:

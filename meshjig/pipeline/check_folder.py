@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from meshjig.check import ThinParts, add_failures, judge, judge_core
+from meshjig.check import AssemblyPlan, ThinParts, add_failures, judge, judge_assembly, judge_core
 from meshjig.output.files.read_pieces import read_puzzle_files
 from meshjig.output.report import Report, read_expectations, read_missing
 
@@ -29,8 +29,9 @@ def check_folder(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Rep
     -------
     dict
         "checks", "names", "failures", "exempt": see `meshjig.check.Verdict`; among the failures also
-        "missing", what a report lists and no file holds; "core", where there is one: see
-        `meshjig.check.judge_core`; "ok": bool.
+        "missing", what a report lists and no file holds; "assembly", where there is a plan: see
+        `meshjig.check.judge_assembly`; "core", where there is one: see `meshjig.check.judge_core`;
+        "ok": bool.
 
     Raises
     ------
@@ -45,6 +46,10 @@ def check_folder(paths: Sequence[Path], asked_instead: Mapping[str, Any]) -> Rep
     verdict = judge(pieces, **asked, thin_parts=ThinParts(None, model_thin, told.through_pieces))
     result: Report = {"checks": verdict.checks, "names": verdict.named, "failures": verdict.failures}
     result["exempt"] = verdict.exempt
+    if told.assembly is not None:
+        proved, held = judge_assembly(pieces, AssemblyPlan(**told.assembly), asked["exempt_pieces"])
+        result["assembly"] = asdict(proved)
+        add_failures(result["failures"], held)
     missing = read_missing(report, [name for name, _, _ in (*pieces, *core)])
     if missing:
         result["failures"]["missing"] = missing

@@ -8,7 +8,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from meshjig.check import ThinParts
+from meshjig.check import ThinParts, judge_assembly
 from meshjig.cut import cut_curves, merge_periodic
 from meshjig.layout.congruent import LEAST_DIFFERENCE, clashes
 from meshjig.layout.interlock import interlock
@@ -20,6 +20,7 @@ from meshjig.options import OptionKeywords, Options
 from meshjig.output.pictures.colours import colours
 from meshjig.output.plates.material import bulk_of, material_of
 from meshjig.output.texture import textures
+from meshjig.pipeline.assembly_report import plan_of
 from meshjig.pipeline.bodies import note_contacts
 from meshjig.pipeline.cells_or_advice import cells_on
 from meshjig.pipeline.debug_pictures import StagePictures
@@ -27,6 +28,7 @@ from meshjig.pipeline.extras import build_core, engrave_pieces, verify_core
 from meshjig.pipeline.ground import surface_to_lay_out
 from meshjig.pipeline.preflight import checked_options, refuse_hollow_piece, refuse_unknown_names
 from meshjig.pipeline.prepare import clean_scan
+from meshjig.pipeline.put_together import Together
 from meshjig.pipeline.report import Made, assemble_report
 from meshjig.pipeline.solids import beside_charts, leave_gaps, make_solids
 from meshjig.pipeline.through import solid_parts, through_facts
@@ -92,7 +94,7 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
     )
     try:
         if options.layout == "cells":
-            ground, layout = cells_on(ground, options, stages)
+            ground, layout = cells_on(ground, options, stages, up)
             pictures.atlas(layout.atlas)
         else:
             with stages("charts"):
@@ -109,7 +111,8 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
             sheets, crossing = found.sheets, found.crossing
             scan = replace(scan, facts=replace(scan.facts, self_crossings=found.n_crossings))
             pictures.shell(surface, sheets)
-            layout, parts, pieces, kerf_facts, reaches = make_solids(layout, parts, ground, sheets, options)
+            made_solids = make_solids(layout, parts, ground, sheets, options, Together(up, crossing))
+            layout, parts, pieces, kerf_facts, reaches, assembled = made_solids
         with stages("finish"):
             depths = np.where(reaches, ground.limit, 0.0)
             pieces, labels = engrave_pieces(pieces, surface, sheets, options, depths)
@@ -128,6 +131,8 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
         through = [name for name, reaching in zip(pieces.names, reaches, strict=True) if reaching]
         thin_parts = ThinParts(Mesh(sheets.outer, surface.F), through_pieces=through)
         pieces, verdict, mended = verify(replace(pieces, neighbours=neighbours), options, exempt, thin_parts)
+        plan = plan_of(assembled, pieces, options)
+        together = judge_assembly(pieces, plan, exempt) if plan else None
         core = verify_core(core, pieces, options, exempt)
         unique = clashes(layout, max(options.clearance, LEAST_DIFFERENCE))[1] if options.unique else None
         made = Made(
@@ -146,6 +151,9 @@ def _make(mesh: Any, options: Options, stages: Stages, pictures: StagePictures) 
             thin=found.thin,
             uncut=found.uncut,
             mended=mended,
+            assembled=assembled,
+            plan=plan,
+            together=together,
             labels=labels,
             core=core,
             unique=unique,

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from meshjig.check import Verdict, add_failures, area_cv, area_error
+from meshjig.check import AssemblyChecks, AssemblyPlan, Verdict, add_failures, area_cv, area_error
 from meshjig.extras.engrave import LabelFacts
 from meshjig.layout.congruent import UniqueFacts
 from meshjig.layout.interlock import Interlock
@@ -18,9 +18,11 @@ from meshjig.mesh.measure import face_areas, mesh_volume, sums
 from meshjig.mesh.pieces import Pieces
 from meshjig.options import Options
 from meshjig.output.report import Report
+from meshjig.pipeline.assembly_report import assembly_report
 from meshjig.pipeline.exempt import exempt_note
 from meshjig.pipeline.extras import Core
 from meshjig.pipeline.notes import core_notes, lock_note, thin_notes
+from meshjig.pipeline.put_together import Assembled
 from meshjig.pipeline.through import ThroughFacts
 from meshjig.pipeline.verify import Mended
 from meshjig.runtime.version import meshjig_version
@@ -59,6 +61,9 @@ class Made:
     thin: ThinShare  # what of the model is thinner than the least wall
     uncut: ThinShare | None  # what would be cut through, were it not for an option
     mended: Mended
+    assembled: Assembled | None  # None where walls are along the normals
+    plan: AssemblyPlan | None
+    together: tuple[AssemblyChecks, dict[str, list[str]]] | None
     labels: LabelFacts | None
     core: Core | None
     unique: UniqueFacts | None
@@ -79,6 +84,7 @@ def assemble_report(made: Made) -> Report:
     broken = _broken_as_a_whole(checks)
     failures = {promise: list(names) for promise, names in made.verdict.failures.items()} | broken
     add_failures(failures, made.core.failures if made.core else {})
+    add_failures(failures, made.together[1] if made.together else {})
     thin = locks.thin_necked(_least_neck(options))
     facts = made.scan.facts.as_dict()
     report = {
@@ -103,6 +109,8 @@ def assemble_report(made: Made) -> Report:
         "exempt_pieces": made.exempt,
         "notes": _notes(made),
     }
+    if made.assembled and made.plan and made.together:
+        report["assembly"] = assembly_report(made.assembled, made.plan, made.together[0])
     if options.labels:
         report["labels"] = asdict(made.labels) if made.labels else {}
     if made.core and made.core.checks:

@@ -15,6 +15,7 @@ from meshjig.mesh.types import Bools, Ints, Mesh
 from meshjig.options import Options
 from meshjig.pipeline.ground import Ground
 from meshjig.pipeline.notes import thin_places
+from meshjig.pipeline.put_together import Assembled, Together, put_together
 from meshjig.pipeline.through import stock_of, strays_on
 from meshjig.scan import self_crossings
 from meshjig.scan.thin_share import ThinShare
@@ -22,7 +23,7 @@ from meshjig.solid import Shell, shell
 from meshjig.solid.kerf import KerfFacts, carve_pieces
 from meshjig.solid.wall_edges import LabelledShell
 
-__all__ = ["Beside", "Solids", "beside_charts", "leave_gaps", "make_solids"]
+__all__ = ["Beside", "Solids", "beside_charts", "is_planned", "leave_gaps", "make_solids"]
 
 _HANDED_OVER = 3  # times that solids are made at most, where parts came off
 
@@ -35,6 +36,7 @@ class Solids(NamedTuple):
     pieces: Pieces
     facts: KerfFacts
     reaches: Bools  # (p,), pieces that reach through thin parts
+    assembled: Assembled | None = None  # how they go together; None where walls are along the normals
 
 
 class Beside(NamedTuple):
@@ -59,6 +61,11 @@ def beside_charts(mesh: Mesh, surface: Mesh, crowded: bool, options: Options) ->
     return Beside(sheets, n_crossings, crossing, *thin_places(mesh, options))
 
 
+def is_planned(options: Options) -> bool:
+    """Tell whether walls are made so that pieces go in: for a gap that is cut from the solids."""
+    return options.assembly != "off" and options.clearance > 0 and options.clearance_method == "solid"
+
+
 def leave_gaps(layout: Layout, options: Options) -> Parts:
     """Cut the surface once more with the gap, unless the gap is to be taken from the solids."""
     if options.clearance == 0 or options.clearance_method == "solid":
@@ -73,8 +80,15 @@ def leave_gaps(layout: Layout, options: Options) -> Parts:
     return Parts(cut, piece, float(area[specks].sum() / max(area[piece >= 0].sum(), 1e-300)))
 
 
-def make_solids(layout: Layout, parts: Parts, ground: Ground, sheets: Shell, options: Options) -> Solids:
-    """Give the pieces their thickness; parts of those that reach through may be handed over."""
+def make_solids(
+    layout: Layout, parts: Parts, ground: Ground, sheets: Shell, options: Options, together: Together
+) -> Solids:
+    """Give the pieces their thickness, so that they go together; parts may be handed over for it."""
+    if is_planned(options):
+        made = put_together(layout, ground, sheets, options, together)
+        layout, parts = made.layout, leave_gaps(made.layout, options)
+        pieces = Pieces(tuple(piece_names(len(made.solids))), tuple(made.solids))
+        return Solids(layout, parts, pieces, made.facts, made.reaches, made)
     clearance = options.clearance if options.clearance_method == "solid" else 0.0
     for left in reversed(range(_HANDED_OVER)):
         cut = parts.cut

@@ -19,7 +19,7 @@ from meshjig.solid.crossing_pairs import crossing_pairs
 from meshjig.solid.separate import separate
 from meshjig.solid.solidify import OUTER, Solid, solidify
 
-__all__ = ["Rim", "Sheet", "Stock", "carve_through", "joined_lines", "rim_lines", "separated"]
+__all__ = ["Rim", "Sheet", "Stock", "carve_marked", "carve_through", "joined_lines", "rim_lines", "separated"]
 
 _AROUND = 8.0  # mm, that a piece may be larger than what lies under its faces
 _ON = 0.02  # mm; a point this near to a body lies on it
@@ -53,6 +53,16 @@ class Sheet(NamedTuple):
         kept = ((P.max(axis=1) > low) & (P.min(axis=1) < high)).all(axis=1)
         F, vertex = compact(self.F[kept])
         return Sheet(self.V[vertex], F, self.piece[kept], self.D[vertex])
+
+    def away_from(self, points: Floats, far: float) -> Sheet:
+        """Give the faces without a corner near to some points."""
+        from scipy.spatial import cKDTree
+
+        if far <= 0 or not len(points) or not len(self.F):
+            return self
+        near = np.isfinite(cKDTree(points).query(self.V, distance_upper_bound=far)[0])
+        F, vertex = compact(self.F[~near[self.F].any(axis=1)])
+        return Sheet(self.V[vertex], F, self.piece[~near[self.F].any(axis=1)], self.D[vertex])
 
     def body(self, of: Bools) -> Body:
         """Give what lies below some of the faces, from a little above them."""
@@ -89,7 +99,9 @@ def joined_lines(first: Chains, second: Chains) -> Chains:
     )
 
 
-def carve_through(solids: dict[int, Solid], walls: Walls, stock: Stock) -> dict[int, Carved]:
+def carve_through(
+    solids: dict[int, Solid], walls: Walls, stock: Stock, lean: float = 0.0
+) -> dict[int, Carved]:
     """Cut pieces out of the wall of the whole model, along the walls around them.
 
     Parameters
@@ -97,21 +109,44 @@ def carve_through(solids: dict[int, Solid], walls: Walls, stock: Stock) -> dict[
     solids : dict of Solid, by piece number; their outer faces tell where a piece is
     walls : Walls
     stock : Stock
+    lean : float, mm
+        How far walls may go below the ground of others, who claim nothing so near to them.
 
     Returns
     -------
     dict of Carved, by piece number
     """
-    of_pair = cutters_of_pairs(walls, solids.keys())
-    joined = {key: united([cutter for _, cutter in own]) for key, own in of_pair.items()}
-    wall = body(*stock.wall)
-    carved = {}
+    wall, starts = body(*stock.wall), {}
     for i, solid in solids.items():
         low, high = solid.V.min(0) - _AROUND, solid.V.max(0) + _AROUND
-        keys = [key for key in of_pair if i in key]
-        start = _without(_within(wall, low, high), _of_others(stock, i, low, high))
-        marks = _marks(solid)
+        along = walls.strip.corners[(walls.pair == i).any(axis=1)].reshape(-1, 3)
+        start = _without(_within(wall, low, high), _of_others(stock, i, low, high, along, lean))
+        starts[i] = start, _marks(solid)
+    return carve_marked(starts, walls)
 
+
+def carve_marked(starts: dict[int, tuple[Body, Floats]], walls: Walls) -> dict[int, Carved]:
+    """Cut pieces out of larger bodies, along the walls around them.
+
+    Parameters
+    ----------
+    starts : dict of body and (k, 3) float64, mm, by piece number
+        What each is cut from, and points on its skin that tell which part is the piece.
+    walls : Walls
+
+    Returns
+    -------
+    dict of Carved, by piece number
+    """
+    of_pair = cutters_of_pairs(walls, starts.keys())
+    joined = {key: united([cutter for _, cutter in own]) for key, own in of_pair.items()}
+    keys_of: dict[int, list[tuple[int, int]]] = {i: [] for i in starts}
+    for key in of_pair:
+        for i in set(key) & starts.keys():
+            keys_of[i].append(key)
+    carved = {}
+    for i, (start, marks) in starts.items():
+        keys = keys_of[i]
         strays: list[Mesh] = []
 
         def own_part(
@@ -153,13 +188,16 @@ def separated(carved: dict[int, Carved], stock: Stock, clearance: float) -> dict
     return {i: carved[i]._replace(V=V, F=F) for i, (V, F) in changed.items()}
 
 
-def _of_others(stock: Stock, i: int, low: Floats, high: Floats) -> list[Body]:
-    """Give what belongs to other pieces: where several claim it, to who reaches through, the first first."""
+def _of_others(stock: Stock, i: int, low: Floats, high: Floats, along: Floats, lean: float) -> list[Body]:
+    """Give what belongs to other pieces: where several claim it, to who reaches through, the first first.
+
+    Nothing within `lean` of the points along a piece's own walls, (k, 3), is claimed.
+    """
     deep = stock.through.near(low, high)
     own = deep.body(deep.piece == i)
     later = [deep.body(deep.piece > i)]
     for sheet in stock.shells:
-        shell = sheet.near(low, high)
+        shell = sheet.near(low, high).away_from(along, lean)
         later.append(shell.body((shell.piece != i) & (shell.piece >= 0)))
     return [deep.body((deep.piece < i) & (deep.piece >= 0)), *(taken - own for taken in later)]
 

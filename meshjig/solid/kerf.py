@@ -2,47 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.mesh.arrays import Bools, Floats, Ints
 from meshjig.mesh.booleans import share_cores
-from meshjig.mesh.measure import mesh_volume, sums
+from meshjig.mesh.measure import sums
 from meshjig.mesh.mesh import Mesh
 from meshjig.runtime.thresholds import SOLIDS_WORTH_A_CHILD
 from meshjig.runtime.worker import Background
-from meshjig.solid.border_chains import border_chains
+from meshjig.solid.border_chains import Chains, border_chains
 from meshjig.solid.carve_gap import Carved, Walls, carve
-from meshjig.solid.carve_through import Stock, carve_through, joined_lines, rim_lines, separated
+from meshjig.solid.carve_leaning import LeaningWalls, bands, finer, ruled
+from meshjig.solid.carve_through import Stock, carve_marked, carve_through, joined_lines, rim_lines, separated
+from meshjig.solid.kerf_facts import KerfFacts, kerf_facts
 from meshjig.solid.offsets import Strip, mitered
 from meshjig.solid.solidify import solidify
 from meshjig.solid.wall_edges import LabelledShell, split_bent_walls
 from meshjig.solid.walls import most_bend, wall_strip
 
-__all__ = ["KerfFacts", "carve_pieces", "kerf"]
+__all__ = ["KerfFacts", "Lean", "carve_pieces", "kerf"]
 
+_BELOW = 2.5  # mm, that leaning walls go below the ground of others
 _OWN_SHARE = 0.48  # of the faces; the caller also takes what the child has made
 
 
-@dataclass(frozen=True)
-class KerfFacts:
-    """What the report says of how the solids and their gap were made; pieces by their number."""
+class Lean(NamedTuple):
+    """Walls that don't follow the way from the outer to the inner sheet."""
 
-    raised: int  # see SolidCounts
-    pinches: int
-    nudged: int
-    shrunk: int
-    segments: int  # quads of wall
-    rounded: int  # joints too sharp for a miter
-    hulls: int  # quads too twisted for a slab
-    discarded_volume_share: float  # of what came off
-    split: list[int]  # pieces that lost parts by that
-    taken_apart: list[int]  # pieces whose slabs had to be
-    mended: list[int]  # pieces whose folds had to be repaired
-    crossing: list[int]  # pieces for which that failed
-    uncut: list[int]
+    vertex: Ints  # (k,)
+    wall: Floats  # (k, 3), mm, as long as it takes from sheet to sheet where both are level
+    D: Floats  # (n, 3), mm, from the outer to the inner sheet
 
 
 def kerf(
@@ -87,7 +78,11 @@ def kerf(
 
 
 def carve_pieces(
-    surface: LabelledShell, clearance: float, stock: Stock | None = None
+    surface: LabelledShell,
+    clearance: float,
+    stock: Stock | None = None,
+    lean: Lean | None = None,
+    only: Bools | None = None,
 ) -> tuple[list[Mesh], KerfFacts, dict[int, tuple[Mesh, ...]]]:
     """Do as `kerf` does, where some pieces reach through thin parts: these are cut from the model's wall.
 
@@ -96,6 +91,9 @@ def carve_pieces(
     surface : LabelledShell
     clearance : float, mm
     stock : Stock, optional
+    lean : Lean, optional
+    only : (p,) bool, optional
+        The pieces to be made; others come out empty.
 
     Returns
     -------
@@ -103,12 +101,13 @@ def carve_pieces(
     facts : KerfFacts
     strays : dict of meshes, by piece number: what came off of pieces that reach through
     """
-    asked = surface, clearance, stock
-    first = _first_half(*surface[:3])
+    asked = surface, clearance, stock, lean
+    wanted = np.ones(int(surface.piece_of_face.max(initial=-1)) + 1, bool) if only is None else only
+    first = wanted & _first_half(*surface[:3], wanted)
     if clearance == 0 or len(surface.F) < SOLIDS_WORTH_A_CHILD or not first.any():
-        carved, counted = _carved(*asked, np.ones_like(first))
+        carved, counted = _carved(*asked, wanted)
     else:
-        child = Background(_carved_beside, *asked, ~first)
+        child = Background(_carved_beside, *asked, wanted & ~first)
         try:
             share_cores()
             carved, counted = _carved(*asked, first)
@@ -118,11 +117,15 @@ def carve_pieces(
             raise
         carved |= others
         counted = [a + b for a, b in zip(counted, more, strict=True)]
-    if stock is not None:
+    if stock is not None and lean is None:
         carved |= separated(carved, stock, clearance)
     empty = np.empty((0, 3)), np.empty((0, 3), np.int64)
     solids = [Mesh(*(carved[i][:2] if i in carved else empty)) for i in range(len(first))]
-    return solids, _facts(counted, carved), {i: piece.strays for i, piece in carved.items() if piece.strays}
+    return (
+        solids,
+        kerf_facts(counted, carved),
+        {i: piece.strays for i, piece in carved.items() if piece.strays},
+    )
 
 
 def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], list[int]]:
@@ -132,20 +135,59 @@ def _carved_beside(*asked: Any) -> tuple[dict[int, Carved], list[int]]:
 
 
 def _carved(
-    surface: LabelledShell, clearance: float, stock: Stock | None, chosen: Bools
+    surface: LabelledShell, clearance: float, stock: Stock | None, lean: Lean | None, chosen: Bools
 ) -> tuple[dict[int, Carved], list[int]]:
     """Make some of the pieces, and count what was met meanwhile, as the first of KerfFacts."""
+    if clearance > 0 and lean is not None:
+        return _carved_leaning(surface, clearance, stock, lean, chosen)
     if clearance > 0:
         surface = split_bent_walls(*surface, most_bend(clearance))
     V, F, piece, D = surface
     label = np.append(np.where(chosen, np.arange(len(chosen)), -1), -1)[piece]
     solids, counts = solidify(V, F, label, D)
     made = {i: solid for i, solid in enumerate(solids) if len(solid.F)}
-    chains = border_chains(F, piece)
+    chains = _lines(F, piece, stock)
     if clearance == 0 or not len(chains.pair):
         return {i: Carved(s.V, s.F, 0.0, 0, "clean") for i, s in made.items()}, [*counts, 0, 0, 0]
-    if stock is not None:
-        chains = joined_lines(chains, rim_lines(stock.rim))
+    walls, met = _walls(LeaningWalls(V, D), F, chains, clearance, stock, chosen)
+    if stock is None:
+        return carve(made, walls), [*counts, *met]
+    reaching = {
+        i: made.pop(i) for i in np.flatnonzero(stock.reaches[: len(chosen)] & chosen).tolist() if i in made
+    }
+    through = carve_through(reaching, walls, stock)
+    return carve(made, walls) | through, [*counts, *met]
+
+
+def _carved_leaning(
+    surface: LabelledShell, clearance: float, stock: Stock | None, lean: Lean, chosen: Bools
+) -> tuple[dict[int, Carved], list[int]]:
+    """Do the same for walls that lean."""
+    V, F, piece, deep = surface
+    leaning = ruled(LabelledShell(V, F, piece, lean.D), deep, lean.vertex, lean.wall)
+    leaning, chains = finer(leaning, _lines(F, piece, stock), most_bend(clearance))
+    walls, met = _walls(leaning, F, chains, clearance, stock, chosen)
+    through, counts = chosen & (False if stock is None else stock.reaches), [0, 0, 0, 0]
+    around = LabelledShell(V, F, piece, lean.D)
+    carved = carve_marked(bands(around, leaning, np.flatnonzero(chosen & ~through), clearance), walls)
+    if stock is not None and through.any():
+        label = np.append(np.where(through, np.arange(len(through)), -1), -1)[piece]
+        solids, found = solidify(V, F, label, deep)
+        reaching = {i: solid for i, solid in enumerate(solids) if len(solid.F)}
+        carved, counts = carved | carve_through(reaching, walls, stock), list(found)
+    return carved, [*counts, *met]
+
+
+def _lines(F: Ints, piece: Ints, stock: Stock | None) -> Chains:
+    chains = border_chains(F, piece)
+    return chains if stock is None else joined_lines(chains, rim_lines(stock.rim))
+
+
+def _walls(
+    ways: LeaningWalls, F: Ints, chains: Chains, clearance: float, stock: Stock | None, chosen: Bools
+) -> tuple[Walls, list[int]]:
+    """Thicken the walls around some pieces; tell how many quads they have, are rounded, and are hulls."""
+    V, D = ways
     past = np.full(len(V), clearance)
     if stock is not None:
         past[: len(stock.past)] = np.maximum(clearance, stock.past)
@@ -156,46 +198,15 @@ def _carved(
     offsets = mitered(strip, clearance / 2)
     mine = chosen[pair[:, 0]]  # quads between the halves are met twice
     sharp = (strip.after >= 0) & (offsets.after < 0)
-    met = [int((mine & some).sum()) for some in (mine, sharp, offsets.failed)]
-    walls = Walls(strip, offsets, pair, clearance / 2)
-    if stock is None:
-        return carve(made, walls), [*counts, *met]
-    reaching = {
-        i: made.pop(i) for i in np.flatnonzero(stock.reaches[: len(chosen)] & chosen).tolist() if i in made
-    }
-    through = carve_through(reaching, walls, stock)
-    return carve(made, walls) | through, [*counts, *met]
+    return Walls(strip, offsets, pair, clearance / 2), [
+        int((mine & some).sum()) for some in (mine, sharp, offsets.failed)
+    ]
 
 
-def _facts(counted: list[int], carved: dict[int, Carved]) -> KerfFacts:
-    lost = sum(piece.lost for piece in carved.values())
-    volume = sum(mesh_volume(piece.V, piece.F) for piece in carved.values())
-
-    def those(state: str) -> list[int]:
-        return sorted(i for i, piece in carved.items() if piece.state == state)
-
-    raised, pinches, nudged, shrunk, segments, rounded, hulls = counted
-    return KerfFacts(
-        raised,
-        pinches,
-        nudged,
-        shrunk,
-        segments,
-        rounded,
-        hulls,
-        discarded_volume_share=lost / max(lost + volume, 1e-300),
-        split=sorted(i for i, piece in carved.items() if piece.parts),
-        taken_apart=those("rounded"),
-        mended=those("mended"),
-        crossing=those("crosses"),
-        uncut=those("uncut"),
-    )
-
-
-def _first_half(V: Floats, F: Ints, piece: Ints) -> Bools:
-    """Choose pieces on one side of the model, with about half of the faces; (p,) bool."""
-    n = int(piece.max(initial=-1)) + 1
-    kept = piece >= 0
+def _first_half(V: Floats, F: Ints, piece: Ints, wanted: Bools) -> Bools:
+    """Choose of some pieces those on one side of the model, with about half of the faces; (p,) bool."""
+    n = len(wanted)
+    kept = np.append(wanted, False)[piece]
     size = np.bincount(piece[kept], minlength=n)
     middle = V[F[kept]].mean(1)
     centre = np.stack([sums(piece[kept], x, n) for x in middle.T], 1) / np.maximum(size, 1)[:, None]

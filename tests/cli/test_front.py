@@ -102,7 +102,7 @@ def test_the_front_listens_before_it_imports_anything_large():
 @pytest.mark.parametrize("stage", ["scan", "solid"])
 def test_an_interrupt_leaves_the_old_puzzle_and_nothing_else(ball, tmp_path, name, stage):
     target = tmp_path / "deep" / "out"
-    running = started("make", ball, "-o", target, "--pieces", 30, "-v")
+    running = started("make", ball, "-o", target, "--pieces", 30, "--assembly", "off", "-v")
     at_stage(running, stage)
     processes = descendants(running)
     running.send_signal(getattr(signal, name))
@@ -119,14 +119,16 @@ def test_an_interrupt_leaves_the_old_puzzle_and_nothing_else(ball, tmp_path, nam
 @on_linux
 def test_nothing_of_a_killed_run_goes_on_and_the_next_one_clears_up(ball, tmp_path):
     target = tmp_path / "out"
-    running = started("make", ball, "-o", target, "--pieces", 30, "-v")
+    running = started("make", ball, "-o", target, "--pieces", 30, "--assembly", "off", "-v")
     at_stage(running, "scan")
     processes = descendants(running)
     assert processes
     running.kill()
     running.communicate()
     until(lambda: gone(processes), 10)
-    ended = started("make", ball, "-o", target, "--pieces", 8, "--no-guide", "--no-viewer")
+    ended = started(
+        "make", ball, "-o", target, "--pieces", 8, "--assembly", "off", "--no-guide", "--no-viewer"
+    )
     said = ended.communicate(timeout=300)[1]
     assert ended.returncode in (0, 3), said
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
@@ -172,7 +174,7 @@ def small(tmp_path_factory):
     return path
 
 
-QUICK = ("--pieces", 8, "--no-guide", "--no-viewer")
+QUICK = ("--pieces", 8, "--assembly", "off", "--no-guide", "--no-viewer")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
@@ -245,7 +247,7 @@ def test_nothing_is_run_from_the_current_folder_or_the_callers_python(ball, tmp_
         (tmp_path / name).write_text(trap)
     (tmp_path / "startup.py").write_text(trap)
     env = os.environ | {"PYTHONSTARTUP": str(tmp_path / "startup.py")}
-    ended = started("make", ball, "-o", "out", "--pieces", 30, cwd=tmp_path, env=env)
+    ended = started("make", ball, "-o", "out", "--pieces", 30, "--assembly", "off", cwd=tmp_path, env=env)
     said = ended.communicate(timeout=300)[1]
     assert ended.returncode in (0, 3), said
     assert not list(tmp_path.glob("*.was_run"))
@@ -256,7 +258,7 @@ def test_children_take_nothing_from_pythonpath(ball, tmp_path):
     script = "import os, pathlib; pathlib.Path(__file__).with_suffix(f'.{os.getpid()}').touch()\n"
     (tmp_path / "sitecustomize.py").write_text(script)
     env = os.environ | {"PYTHONPATH": str(tmp_path)}
-    ended = started("make", ball, "-o", tmp_path / "out", "--pieces", 30, env=env)
+    ended = started("make", ball, "-o", tmp_path / "out", "--pieces", 30, "--assembly", "off", env=env)
     said = ended.communicate(timeout=300)[1]
     assert ended.returncode in (0, 3), said
     assert [path.name for path in tmp_path.glob("sitecustomize.*[0-9]")] == [f"sitecustomize.{ended.pid}"]

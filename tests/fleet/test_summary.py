@@ -45,7 +45,7 @@ def test_the_exit_code_is_that_of_the_worst(records, code):
 
 def test_the_table_has_a_row_a_scan(tmp_path):
     write_csv(tmp_path / "summary.csv", RECORDS)
-    with (tmp_path / "summary.csv").open(newline="") as file:
+    with (tmp_path / "summary.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["outcome"] for row in rows] == ["made", "failed", "broken", "failed"]
     assert (rows[0]["pieces"], rows[0]["y_mm"], rows[0]["seconds"]) == ("4", "2.0", "1.5")

@@ -25,9 +25,12 @@ def laid_out(shape, pieces=24, **given):
     return cell_layout(Mesh(V, F), options, Stages())
 
 
-@pytest.mark.parametrize("name", sorted(SHAPES))
-def test_pieces_are_discs_of_equal_area_that_lock(name):
-    layout = laid_out(SHAPES[name])
+@pytest.mark.parametrize(
+    ("name", "assembly", "least"),
+    [*((name, "off", 1.0) for name in sorted(SHAPES)), ("closed", "any", 0.9), ("handle", "any", 0.6)],
+)
+def test_pieces_are_discs_of_equal_area_that_lock(name, assembly, least):
+    layout = laid_out(SHAPES[name], assembly=assembly)
     piece, cut = layout.piece_of_face, layout.cut
     n = layout.stitching.n_pieces
     assert n == pytest.approx(24, abs=1)
@@ -38,7 +41,7 @@ def test_pieces_are_discs_of_equal_area_that_lock(name):
     locks = interlock(cut, layout.knobs, piece)
     size = np.sqrt(area.mean())
     long = locks.length > 0.3 * size
-    assert (locks.knobs_of_pair[long] > 0).all()
+    assert (locks.knobs_of_pair[long] > 0).mean() >= least  # others would keep a piece from going in
     assert (locks.head > 1.3 * locks.neck).all()
 
 
@@ -77,5 +80,5 @@ def test_the_same_seed_gives_the_same_cells_and_another_one_others():
 
 
 def test_no_border_looks_like_another_where_pieces_are_to_be_unique():
-    assert clashes(laid_out(sphere), 0.15)[1].congruent_borders > 0
-    assert clashes(laid_out(sphere, unique=True), 0.15)[1].congruent_borders == 0
+    assert clashes(laid_out(sphere, assembly="off"), 0.15)[1].congruent_borders > 0
+    assert clashes(laid_out(sphere, assembly="off", unique=True), 0.15)[1].congruent_borders == 0

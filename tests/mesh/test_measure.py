@@ -4,18 +4,21 @@ import numpy as np
 import pytest
 
 from meshjig.mesh.measure import (
+    angle_normals,
     area_vectors,
     barycentric,
     edge_lengths,
     face_areas,
     interpolate,
     mesh_volume,
+    prism_volumes,
     signed_area,
     singular_values,
     sums,
     unit,
     vertex_normals,
 )
+from tests.check.pieces import box
 from tests.meshes import sphere
 
 V = np.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0]])
@@ -35,6 +38,24 @@ def test_the_area_and_the_volume_of_a_sphere():
     assert mesh_volume(*ball) == pytest.approx(4 / 3 * np.pi * 50**3, rel=2e-3)
     assert mesh_volume(ball.V, ball.F[:, ::-1]) == pytest.approx(-mesh_volume(*ball))
     np.testing.assert_allclose(vertex_normals(*ball), ball.V / 50, atol=0.02)
+
+
+@pytest.mark.parametrize("high", [10.0, 0.1])
+def test_normals_by_angle_don_t_depend_on_how_large_faces_are(high):
+    slab = box([0, 0, 0], [10, 10, high], n=2)
+    inward = np.sign([5, 5, high / 2] - slab.V) * (np.abs(slab.V / [5, 5, high / 2] - 1) > 1e-9)
+    np.testing.assert_allclose(angle_normals(*slab), -unit(inward), atol=1e-9)
+
+
+def test_the_volume_below_faces_is_that_between_two_sheets_however_slanted():
+    below = prism_volumes(V, np.tile([0.0, 0, -2.0], (3, 1)), F)
+    assert below == pytest.approx([12.0])
+    assert prism_volumes(V, np.tile([1.0, 3.0, -2.0], (3, 1)), F) == pytest.approx(below)
+    assert prism_volumes(V, np.tile([0.0, 0, 2.0], (3, 1)), F) == pytest.approx(-below)
+    assert prism_volumes(V, np.array([[0.0, 0, 0], [0, 0, 0], [0, 0, -3.0]]), F) == pytest.approx([6.0])
+    ball = sphere(2000)
+    whole = mesh_volume(*ball) - mesh_volume(0.9 * ball.V, ball.F)
+    assert prism_volumes(ball.V, -0.1 * ball.V, ball.F).sum() == pytest.approx(whole)
 
 
 def test_barycentric_coordinates_lead_back_to_the_point():

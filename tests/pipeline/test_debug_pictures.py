@@ -9,10 +9,10 @@ from meshjig.pipeline.debug_pictures import STAGES, StagePictures
 from tests.meshes import sphere
 
 
-@pytest.mark.parametrize("layout", ["cells", "tiles"])
-def test_each_stage_has_its_picture(tmp_path, layout):
+@pytest.mark.parametrize(("layout", "assembly"), [("cells", "any"), ("tiles", "off")])
+def test_each_stage_has_its_picture(tmp_path, layout, assembly):
     folder = tmp_path / "new" / "stages"
-    meshjig.make_puzzle(sphere(600), pieces=6, layout=layout, debug_dir=folder)
+    meshjig.make_puzzle(sphere(600), pieces=6, layout=layout, assembly=assembly, debug_dir=folder)
     assert sorted(path.name for path in folder.iterdir()) == sorted(STAGES)
     for name in STAGES:
         image = np.asarray(Image.open(folder / name).convert("RGB"))

@@ -18,7 +18,7 @@ SMALL = {"pieces": 30}
 
 
 def locks(**options):
-    report = make_puzzle(sphere(320, 10.0), **options).report
+    report = make_puzzle(sphere(320, 10.0), assembly="off", **options).report
     return report["checks"]["interlocked_length"], report["notes"]
 
 
@@ -88,7 +88,7 @@ def test_what_keeps_thin_parts_from_being_cut_through_is_said(option, value, cur
     V, F = sphere(1000)
     flat = V * [1.0, 0.8, 0.08], F
     asked = {"pieces": 6, "size": 60, "thickness": 0.8, "process": "sla", "layout": "tiles", option: value}
-    report = make_puzzle(flat, **asked).report
+    report = make_puzzle(flat, **asked, assembly="off").report
     assert report["through"]["limit_mm"] == 0
     (note,) = [note for note in report["notes"] if "cut through" in note]
     assert "of the model is thinner than 1." in note

@@ -11,7 +11,7 @@ import trimesh
 import meshjig
 from tests.charts.revolved import vase
 
-ASKED = {"size": 110, "pieces": 24, "charts": "periodic"}
+ASKED = {"size": 110, "pieces": 24, "charts": "periodic", "assembly": "off"}
 
 
 @pytest.fixture(scope="module")

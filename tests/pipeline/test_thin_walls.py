@@ -19,7 +19,7 @@ def puzzle():
     whole = trimesh.boolean.union([ball, fin], engine="manifold")
     V, F = trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 4.0)
     mesh = trimesh.Trimesh(V, F)
-    return meshjig.make_puzzle((np.asarray(mesh.vertices), np.asarray(mesh.faces)), pieces=12)
+    return meshjig.make_puzzle((np.asarray(mesh.vertices), np.asarray(mesh.faces)), pieces=12, assembly="off")
 
 
 @pytest.mark.slow

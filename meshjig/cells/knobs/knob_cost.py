@@ -13,13 +13,15 @@ from meshjig.mesh.arrays import equal_pairs
 from meshjig.mesh.measure import unit
 from meshjig.mesh.types import Bools, Floats, Ints
 
-__all__ = ["PLAIN", "bend", "conflicts", "costs"]
+__all__ = ["PLAIN", "bend", "conflicts", "costs", "tilt_cost"]
 
 PLAIN = 8.0  # a border with neither knob nor wave
 _KIND = {SLIM: 0.0, STOUT: 0.6, WAVE: 4.0}
 _SMALL = {SLIM: 1.6, STOUT: 1.6, WAVE: 0.5}  # how much it matters that a curve is small
 _BEND = [25, 35, 45, 55, 90], [0, 0.15, 0.8, 1.8, 3.0]  # degrees, and their cost
 _CREASE_AWARE = 2.0  # times that cost
+# degrees that walls lean by where a piece has to go in, and their cost: beyond 48 rather no knob
+_TILT = [0, 20, 30, 40, 48, 60, 90], [0, 0.1, 0.5, 1.8, 8.0, 30.0, 90.0]
 _OFF = 0.25
 _CHANCE = 0.5  # at full randomness
 _RIM = 20  # places on a curve at which normals are looked up
@@ -46,12 +48,23 @@ def costs(
 
 def bend(c: KnobCurves, grid: SurfaceGrid, shapes: KnobShapes) -> Floats:
     """Give how far the surface's normals inside curves are off their mean at most, degrees; (c,)."""
+    normals = _normals_inside(c, grid, shapes)
+    cosine = np.einsum("ckd,cd->ck", normals, unit(normals.sum(1)))
+    return np.degrees(np.arccos(np.clip(cosine.min(1), -1, 1)))
+
+
+def tilt_cost(c: KnobCurves, grid: SurfaceGrid, shapes: KnobShapes, way: Floats) -> Floats:
+    """Rate how far normals inside curves are off the ways out (c, 3) that their walls follow, (c,)."""
+    cosine = np.einsum("ckd,cd->ck", _normals_inside(c, grid, shapes), way)
+    return np.interp(np.degrees(np.arccos(np.clip(cosine.min(1), -1, 1))), *_TILT)
+
+
+def _normals_inside(c: KnobCurves, grid: SurfaceGrid, shapes: KnobShapes) -> Floats:
+    """Give the surface's normals at places in and on curves, (c, k, 3)."""
     last = shapes.points.shape[1] - 1
     at = np.linspace(shapes.foot, last - shapes.foot, _RIM).astype(int)
     samples = np.concatenate([shapes.discs[..., :2], shapes.points[:, at]], 1)[c.shape]
-    normals = grid.normals(c.drawn(samples))
-    cosine = np.einsum("ckd,cd->ck", normals, unit(normals.sum(1)))
-    return np.degrees(np.arccos(np.clip(cosine.min(1), -1, 1)))
+    return grid.normals(c.drawn(samples))
 
 
 class _Discs(NamedTuple):

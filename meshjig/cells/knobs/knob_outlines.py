@@ -1,12 +1,13 @@
 """Knobs on the borders of cells: where they are, how large, and into which cell."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from meshjig.cells.knobs.knob_borders import Borders, cell_borders
 from meshjig.cells.knobs.knob_choice import Choices, choose
-from meshjig.cells.knobs.knob_cost import PLAIN, conflicts, costs
+from meshjig.cells.knobs.knob_cost import PLAIN, conflicts, costs, tilt_cost
 from meshjig.cells.knobs.knob_curves import KnobCurves, knob_loops
 from meshjig.cells.knobs.knob_places import LARGEST, Candidates, KnobSpec, Obstacles, candidates, cut_clean
 from meshjig.cells.knobs.knob_shapes import SLIM, STOUT, WAVE, KnobShapes, knob_shapes
@@ -14,7 +15,7 @@ from meshjig.cells.knobs.surface_grid import Lift, surface_grid
 from meshjig.mesh.measure import sums
 from meshjig.mesh.types import Atlas, Bools, Floats, Ints, Knobs, Outlines
 
-__all__ = ["KnobFacts", "KnobLayout", "knob_outlines"]
+__all__ = ["KnobFacts", "KnobLayout", "WaysOut", "knob_outlines"]
 
 _CLEAR = 0.07  # distance from borders and between knobs, in units of size
 _GROUND = 0.05  # step of the grid of normals, in units of size
@@ -26,6 +27,17 @@ _LEAST_HEAD = 1.35  # necks
 _CHANGED = 2.0  # cost of a knob on the other side than before
 _TRIES = 5
 _SHORT = 0.3  # in units of size, a border that need not have a knob
+
+
+class WaysOut(NamedTuple):
+    """In which order cells are put in, and the way that each goes out."""
+
+    rank: Ints  # (n,), 0 for the first
+    way: Floats  # (n, 3), unit
+
+    def of_later(self, one: Ints, other: Ints) -> Floats:
+        """Give the way of that of two cells (c,) each which is put in later, (c, 3)."""
+        return self.way[np.where(self.rank[one] > self.rank[other], one, other)]
 
 
 @dataclass(frozen=True)
@@ -66,6 +78,7 @@ def knob_outlines(
     seed: int = 0,
     like: KnobLayout | None = None,
     between: Ints | None = None,
+    ways: WaysOut | None = None,
 ) -> KnobLayout:
     """Put a knob on every border between two cells where one fits.
 
@@ -88,6 +101,9 @@ def knob_outlines(
         larger or smaller for their knobs' sake keep them.
     between : (k, 2) int64, optional
         Pairs of cells: no borders but theirs get a knob; all others count as what knobs keep clear of.
+    ways : WaysOut, optional
+        The order of cells, and the way that each goes out: knobs are where the surface faces that of the
+        later cell.
 
     Returns
     -------
@@ -105,6 +121,14 @@ def knob_outlines(
     obstacles = _obstacles(atlas, borders, spec, min_neck, rng)
     found = candidates(obstacles, spec, rng)
     cost = costs(found, obstacles.grid, obstacles.shapes, spec, crease_aware, rng)
+    if ways is not None:
+        side = found.curves.side
+        cost += tilt_cost(
+            found.curves,
+            obstacles.grid,
+            obstacles.shapes,
+            ways.of_later(borders.cell[side], borders.cell[borders.opposite(side)]),
+        )
     if like is not None:
         cost += _CHANGED * ~_as_before(borders, found.curves, like)
     best = _best_of_each_side(found, cost, obstacles.shapes)
