@@ -2,16 +2,18 @@
 
 import heapq
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.measure import unit
 from meshjig.mesh.mesh import concatenate
 from meshjig.output.pictures.view import guess_up, up_of
 from meshjig.output.piece import Piece
 
-__all__ = ["Assembly", "assembly_of", "assembly_order"]
+__all__ = ["Assembly", "assembly_of", "assembly_order", "ways_out"]
 
 _MOST_STEPS = 30  # so many pictures a person follows
 
@@ -36,15 +38,38 @@ def assembly_of(pieces: Sequence[Piece], report: Mapping[str, Any]) -> Assembly:
     Returns
     -------
     Assembly
+        At most thirty steps: where the report has more, some that follow each other are one.
     """
     planned = report.get("assembly")
     if planned:
         steps = [[int(piece) for piece in step] for step in planned["steps"]]
-        return Assembly(steps, bool(planned.get("verified", False)))
+        a_step = max(-(-len(steps) // _MOST_STEPS), 1)
+        together = [list(chain.from_iterable(steps[k : k + a_step])) for k in range(0, len(steps), a_step)]
+        return Assembly(together, bool(planned.get("verified", False)))
     listed = [entry["neighbours"] for entry in report.get("pieces", ())]
     neighbours = listed if len(listed) == len(pieces) else [[] for _ in pieces]
     V, F, _, _ = concatenate(pieces)
     return Assembly(assembly_order(pieces, neighbours, up_of(report, V, F)), False)
+
+
+def ways_out(report: Mapping[str, Any], n: int) -> Floats | None:
+    """Give the directions in which pieces go out again, as a report has them.
+
+    Parameters
+    ----------
+    report : mapping
+        ``assembly``, if there, may have ``motions``: by the number of a piece, a mapping with its ``axis``.
+    n : int, pieces
+
+    Returns
+    -------
+    (n, 3) float64, unit, or None where there is no plan. Zero for a piece without an axis.
+    """
+    motions = (report.get("assembly") or {}).get("motions")
+    if not motions:
+        return None
+    axes = [(motions.get(str(i + 1)) or {}).get("axis") for i in range(n)]
+    return unit(np.array([[0.0, 0.0, 0.0] if axis is None else axis for axis in axes], np.float64))
 
 
 def assembly_order(

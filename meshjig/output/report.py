@@ -132,6 +132,7 @@ class Expectations(NamedTuple):
     exempt_pieces: tuple[str, ...] = ()  # names of pieces affected by crossings of the model itself
     through_pieces: tuple[str, ...] = ()  # names of pieces that reach through a thin part
     model_thin: Mapping[str, float] = {}  # piece: share of its sheets that is thin because the model is
+    assembly: Mapping[str, Any] | None = None  # order, way, shift, give and laid_out, as check takes them
 
 
 def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) -> Expectations:
@@ -165,6 +166,7 @@ def read_expectations(report: Mapping[str, Any] | None, names: Sequence[str]) ->
             exempt_pieces=tuple(str(name) for name in report.get("exempt_pieces", ())),
             through_pieces=tuple(str(name) for name in through.get("pieces", ())),
             model_thin={str(name): _share(x) for name, x in through.get("model_thin", {}).items()},
+            assembly=_assembly(report.get("assembly")),
         )
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError):
         raise _damaged() from None
@@ -210,6 +212,29 @@ def _length(value: Any) -> float | None:
     if isinstance(value, bool | str) or not 0 <= float(value) < math.inf:
         raise ValueError(value)
     return float(value)
+
+
+def _assembly(told: Any) -> dict[str, Any] | None:
+    """Give the order of pieces by name, and how each goes in; None where none was planned."""
+    if told is None:
+        return None
+    names = {str(i): f"piece_{int(i):03d}" for i in told["order"]}
+    motions = {names[str(i)]: motion for i, motion in told["motions"].items()}
+    return {
+        "order": list(names.values()),
+        "way": {name: _vector(motion["axis"]) for name, motion in motions.items()},
+        "shift": {name: _vector(motion["shift"]) for name, motion in motions.items()},
+        "give": _length(told["give_mm"]) or 0.0,
+        "laid_out": {names[str(i)]: _length(mm3) or 0.0 for i, mm3 in told["laid_out_mm3"].items()},
+    }
+
+
+def _vector(value: Any) -> list[float]:
+    """Give three numbers; a ValueError where there are others."""
+    x = [float(number) for number in value]
+    if len(x) != 3 or not all(map(math.isfinite, x)):
+        raise ValueError(value)
+    return x
 
 
 def _share(value: Any) -> float:

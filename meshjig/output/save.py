@@ -16,6 +16,7 @@ from meshjig.mesh.mesh import concatenate
 from meshjig.output.files.curve_files import Curves, write_dxf, write_obj_lines, write_svg
 from meshjig.output.folder import replace_folder
 from meshjig.output.lost_colours import lost_colours
+from meshjig.output.order import ways_out
 from meshjig.output.palette import by_palette
 from meshjig.output.pictures.view import axis_of, up_of
 from meshjig.output.piece import Piece, explode_pieces
@@ -84,14 +85,15 @@ def save_puzzle(
     report = _with_notes(report, lost_colours(pieces, formats, outputs.plate is not None))
     seconds = dict(report["timings_s"])
     up = up_of(report, *concatenate(pieces)[:2]) if pieces else axis_of("y")
+    ways = ways_out(report, len(pieces))
     source = report.get("input", {}).get("file")
     inputs = [source] if source else []
     with (
         replace_folder(directory, inputs=inputs) as folder,
-        _drawn(folder, pieces, outputs, up) as pictures,
+        _drawn(folder, pieces, outputs, up, ways) as pictures,
     ):
         with _lap(seconds, "write"):
-            _write_meshes(folder, pieces, outputs, up)
+            _write_meshes(folder, pieces, outputs, up, ways)
             _write_core(folder, core)
             _write_curves(folder, curves or Curves())
         plates: dict[str, int] | None = None
@@ -126,24 +128,28 @@ def _with_notes(report: Mapping[str, Any], notes: Sequence[str]) -> Mapping[str,
 
 
 @contextmanager
-def _drawn(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> Iterator[Background]:
+def _drawn(
+    folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats, ways: Floats | None
+) -> Iterator[Background]:
     """Draw pictures beside the caller, who asks for the seconds they took once they are needed."""
     small = sum(len(piece.F) for piece in pieces) < FILES_WORTH_A_CHILD
     none = not (outputs.preview or outputs.turntable)
-    child = Background(_draw, folder, list(pieces), outputs, up, alone=small or none)
+    child = Background(_draw, folder, list(pieces), outputs, up, ways, alone=small or none)
     try:
         yield child
     finally:
         child.cancel()
 
 
-def _draw(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> dict[str, float]:
+def _draw(
+    folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats, ways: Floats | None
+) -> dict[str, float]:
     from meshjig.output.pictures.preview import write_preview, write_turntable
 
     seconds: dict[str, float] = {}
     if outputs.preview:
         with _lap(seconds, "preview"):
-            write_preview(folder / "preview.png", pieces, up, apart=outputs.explode)
+            write_preview(folder / "preview.png", pieces, up, apart=outputs.explode, ways=ways)
     if outputs.turntable:
         with _lap(seconds, "turntable"):
             write_turntable(folder / "turntable.gif", pieces, up)
@@ -175,7 +181,9 @@ def _lap(seconds: dict[str, float], name: str) -> Iterator[None]:
     seconds[name] = time.perf_counter() - start
 
 
-def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats) -> None:
+def _write_meshes(
+    folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: Floats, ways: Floats | None
+) -> None:
     from meshjig.output.files.glb import write_glb
     from meshjig.output.files.mesh_files import write_obj, write_ply, write_stl
 
@@ -197,7 +205,7 @@ def _write_meshes(folder: Path, pieces: Sequence[Piece], outputs: Outputs, up: F
     if "glb" in formats:
         shown = by_palette(pieces)
         write_glb(folder / "puzzle.glb", shown, up)
-        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode), up)
+        write_glb(folder / "exploded.glb", explode_pieces(shown, outputs.explode, ways), up)
 
 
 def _write_core(folder: Path, core: Sequence[Piece]) -> None:

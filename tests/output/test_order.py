@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from meshjig.output.order import assembly_of, assembly_order
+from meshjig.output.order import assembly_of, assembly_order, ways_out
 from meshjig.output.piece import Piece
 from tests.meshes import moved, sphere
 
@@ -77,3 +77,23 @@ def test_the_order_goes_the_way_that_the_report_says_is_up():
     pieces = stack([[0, 0, 0], [12, 2, 1], [24, 1, 2]])
     assert assembly_of(pieces, {"up": [-1, 0, 0]}).steps == [[3], [2], [1]]
     assert assembly_of(pieces, {"up": [0, 1, 0]}).steps == [[1], [3], [2]]
+
+
+@pytest.mark.parametrize("n", [1, 30, 31, 60, 100])
+def test_a_plan_of_one_piece_a_step_is_told_in_thirty_steps_at_most(n):
+    pieces = stack([[12 * k, 0, 0] for k in range(3)])
+    steps = assembly_of(pieces, {"assembly": {"steps": [[k + 1] for k in range(n)]}}).steps
+    assert [piece for step in steps for piece in step] == list(range(1, n + 1))
+    assert len(steps) <= 30
+    assert max(map(len, steps)) == -(-n // 30)
+
+
+def test_ways_out_are_unit_and_zero_where_a_piece_has_none():
+    motions = {"1": {"axis": [0, 3, 0]}, "2": {"axis": None}, "4": {"axis": [1, 1, 0]}}
+    ways = ways_out({"assembly": {"steps": [[1, 2, 3, 4]], "motions": motions}}, 4)
+    assert ways == pytest.approx(np.array([[0, 1, 0], [0, 0, 0], [0, 0, 0], [0.5**0.5, 0.5**0.5, 0]]))
+
+
+@pytest.mark.parametrize("report", [{}, {"assembly": None}, {"assembly": {"steps": [[1]], "verified": True}}])
+def test_a_report_without_motions_has_no_ways(report):
+    assert ways_out(report, 1) is None

@@ -51,3 +51,20 @@ def test_one_piece_alone_stays_and_none_gives_none():
     V = sphere(300).V
     np.testing.assert_allclose(explosion(V, np.zeros(len(V), np.int64)), [[0, 0, 0]], atol=1e-9)
     assert explode_pieces([], 1.0) == []
+
+
+def test_with_ways_pieces_move_along_these_the_farther_the_later_they_go_in():
+    ways = np.array([[0.0, 1, 0], [0.6, 0.8, 0], [0, 0, 0], [-1, 0, 0]])
+    V = np.concatenate([piece.V for piece in PIECES])
+    owner = np.repeat(np.arange(4), [len(piece.V) for piece in PIECES])
+    moves, as_ever = explosion(V, owner, ways), explosion(V, owner)
+    length = np.linalg.norm(moves, axis=1)
+    for k in (0, 1, 3):
+        np.testing.assert_allclose(moves[k], length[k] * ways[k], atol=1e-9)
+    assert 5 < length[0] < length[1] < length[3]
+    np.testing.assert_allclose(moves[2], as_ever[2])  # nobody knows how it goes out
+    for k, piece in enumerate(explode_pieces(PIECES, 0.5, ways)):
+        np.testing.assert_allclose(piece.V, PIECES[k].V + 0.5 * moves[k], atol=1e-9)
+    np.testing.assert_allclose(
+        exploded(V, owner, 0.5, ways), np.concatenate([p.V for p in explode_pieces(PIECES, 0.5, ways)])
+    )

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from meshjig.mesh.arrays import Floats, Ints
+from meshjig.mesh.measure import unit
+from meshjig.output.guide.arrows import Arrows
 from meshjig.output.guide.proxy import PlacedFaces, ProxyModel, meet
 from meshjig.output.pictures.view import View, view_of
 
@@ -15,6 +17,8 @@ __all__ = ["Camera", "cameras", "choose_cameras"]
 
 _AZIMUTHS = tuple(range(30, 390, 45))  # degrees
 _ELEVATIONS = (20.0, 48.0)
+_BELOW = -35.0  # for pieces that go in from below
+_UPSIDE_DOWN = 0.8  # worth of a view from below: who builds has to lift the model
 _RAYS = 60  # a piece
 _INSIDE = 0.6  # worth of a piece's inner side, seen through an opening
 _WALL = 0.1  # worth of the walls around it
@@ -23,6 +27,9 @@ _BEFORE = 2e-3  # of the distance from the eye: what a ray meets there hides not
 _SAME = 0.3  # how much worse a view may be that spares turning the model
 _HIDDEN = 0.2  # of enough, below which a piece deserves another picture
 _BETTER = 0.3  # how much more of enough the other picture has to show
+_NO_ARROW = 0.15  # worth of a piece whose arrow is not seen
+_SIDEWAYS = 0.6  # sine of the angle between an arrow and the eye from which on it is seen well
+_ON_ARROW = np.linspace(0.1, 1, 5)  # where rays meet an arrow
 
 
 class Camera(NamedTuple):
@@ -37,16 +44,17 @@ class Camera(NamedTuple):
     def words(self) -> str:
         """Say where it stands."""
         side = ("front", "right", "back", "left")[int((self.azimuth + 45) // 90) % 4]
-        return f"from the {side}" + (" and above" if self.elevation > _ELEVATIONS[0] else "")
+        height = " and below" if self.elevation < 0 else " and above"
+        return f"from the {side}" + ("" if self.elevation == _ELEVATIONS[0] else height)
 
 
-def cameras(model: ProxyModel) -> list[Camera]:
-    """Give places all around a model, at the same distance."""
+def cameras(model: ProxyModel, *, below: bool = False) -> list[Camera]:
+    """Give places all around a model, at the same distance; some below it, if asked for."""
     from scipy.spatial import ConvexHull
 
     outline = model.V[ConvexHull(model.V).vertices]
     made = []
-    for elevation in _ELEVATIONS:
+    for elevation in (*_ELEVATIONS, _BELOW) if below else _ELEVATIONS:
         for azimuth in _AZIMUTHS:
             view = view_of(outline, model.up, azimuth, elevation)
             extent = np.ptp(view.on_plane(outline), axis=0)
@@ -55,9 +63,14 @@ def cameras(model: ProxyModel) -> list[Camera]:
 
 
 def choose_cameras(
-    model: ProxyModel, placed: PlacedFaces, new: Sequence[int], places: Sequence[Camera], last: int
+    model: ProxyModel,
+    placed: PlacedFaces,
+    new: Sequence[int],
+    places: Sequence[Camera],
+    last: int,
+    arrows: Arrows | None = None,
 ) -> list[tuple[int, list[int]]]:
-    """Choose the places that show the new pieces best.
+    """Choose the places that show the new pieces best, and their arrows.
 
     Parameters
     ----------
@@ -67,6 +80,7 @@ def choose_cameras(
     places : sequence of Camera
     last : int
         The place of the picture before; it is kept where it is nearly as good.
+    arrows : Arrows, optional
 
     Returns
     -------
@@ -75,6 +89,9 @@ def choose_cameras(
         each with those pieces that it is there for.
     """
     shown = np.minimum(_seen(model, placed, new, places) / _ENOUGH, 1)
+    if arrows is not None:
+        shown *= _NO_ARROW + (1 - _NO_ARROW) * _arrow_seen(placed, new, places, arrows)
+    shown[[place.elevation < 0 for place in places]] *= _UPSIDE_DOWN
     total = shown.sum(axis=1)
     total[last] += _SAME * len(new)
     chosen = [int(total.argmax())]
@@ -119,6 +136,21 @@ def _seen(model: ProxyModel, placed: PlacedFaces, new: Sequence[int], places: Se
     n = len(new)
     seen = np.bincount((camera * n + piece[ray])[free], value, len(places) * n).reshape(-1, n)
     return seen / half
+
+
+def _arrow_seen(placed: PlacedFaces, new: Sequence[int], places: Sequence[Camera], arrows: Arrows) -> Floats:
+    """Tell how well the arrow of each new piece is seen from each place, 0 to 1, (c, p)."""
+    seat, along = arrows.seat[list(new)], (arrows.start - arrows.seat)[list(new)]
+    points = seat[:, None] + _ON_ARROW[:, None] * along[:, None]
+    eye = np.array([place.view.eye for place in places])
+    toward = points - eye[:, None, None]
+    met = meet(placed, eye.repeat(toward[0, :, :, 0].size, 0), toward.reshape(-1, 3).astype(np.float32))
+    free = (met.face < 0) | (met.depth > 1 / placed.scene.radius)
+    share = free.reshape(toward.shape[:3]).mean(axis=2)
+    away = np.einsum("cpi,pi->cp", unit(toward.mean(axis=2)), unit(along))  # cosine
+    seen: Floats = share * np.minimum(np.sqrt(np.maximum(1 - away * away, 0)) / _SIDEWAYS, 1)
+    seen *= 1 - np.maximum(away, 0)  # from behind
+    return seen
 
 
 def _some(faces: Ints) -> Ints:

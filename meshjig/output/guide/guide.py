@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from meshjig.errors import OutputError
 from meshjig.mesh.arrays import Bools
 from meshjig.mesh.mesh import concatenate
+from meshjig.output.guide.arrows import arrows_of
 from meshjig.output.guide.pages import LEFT, RIGHT, WIDTH, Document, Page, text_width
 from meshjig.output.guide.parts_pages import outlines, parts_pages
 from meshjig.output.guide.proxy import join_pieces
 from meshjig.output.guide.steps_pages import steps_pages
 from meshjig.output.guide.table_pages import table_pages
-from meshjig.output.order import assembly_of
+from meshjig.output.order import assembly_of, ways_out
 from meshjig.output.pictures.preview import draw_whole
 from meshjig.output.pictures.view import up_of
 from meshjig.output.piece import Piece
@@ -42,6 +43,15 @@ _UNVERIFIED = (
     "that every piece can get to its place in it: where one does not go in, put it in before its neighbours."
 )
 _VERIFIED = "The order was checked: in it, every piece can get to its place."
+_ARROWS = (
+    "An arrow shows how a new piece goes in; a grey one comes from behind. Put in the pieces of a step in "
+    "the order in which they are named."
+)
+_TRIED = "Every piece was tried on the finished shapes, in this order: it goes straight in along its arrow."
+_NOT_ALL = (
+    "The order and the arrows are a plan that was tried on the finished shapes, where {} go straight in. "
+    "Where one of the others does not go in, put it in before its neighbours."
+)
 
 
 def write_guide(
@@ -86,9 +96,11 @@ def write_guide(
         return trimmed(draw_whole(pieces, up=up) if given is None else given)
 
     joined = join_pieces(pieces, up)
+    ways = ways_out(report, len(pieces))
+    arrows = None if ways is None else arrows_of(joined, ways)
     chapters = [
         ("What you have", parts_pages(outlines(joined), on_plate)),
-        ("Putting it together", steps_pages(joined, assembly.steps, picture)),
+        ("Putting it together", steps_pages(joined, assembly.steps, picture, arrows)),
     ]
     if len(listed) == len(pieces):
         neighbours = [entry["neighbours"] for entry in listed]
@@ -97,7 +109,9 @@ def write_guide(
     contents = [(name, start) for (name, _), start in zip(chapters, starts, strict=False)]
     n_plates = len({plate for plate in on_plate if plate is not None})
     facts = _facts(pieces, report, n_plates)
-    first = _Cover(title_of(report), len(pieces), facts, contents, assembly.verified)
+    first = _Cover(
+        title_of(report), len(pieces), facts, contents, _words(report, ways is not None, assembly.verified)
+    )
     with Document(path, first.title, n_pages=starts[-1] - 1) as document:
         _draw_cover(document, first, picture())
         document.end_page("")
@@ -137,7 +151,7 @@ class _Cover(NamedTuple):
     n_pieces: int
     facts: list[tuple[str, str]]
     contents: list[tuple[str, int]]  # chapters and their pages
-    verified: bool  # somebody made sure that the order works
+    words: list[str]  # how to read the steps, and whether somebody made sure that their order works
 
 
 def _draw_cover(document: Document, cover: _Cover, picture: NDArray[np.uint8]) -> None:
@@ -156,14 +170,26 @@ def _draw_cover(document: Document, cover: _Cover, picture: NDArray[np.uint8]) -
     document.line(LEFT, 224, RIGHT, 224, grey=0.6)
     y = 235.0
     document.text(LEFT, y, "How to read this guide", 11, strong=True)
-    y = document.paragraph(LEFT, y + 6, 112, _BOOK)
-    document.paragraph(LEFT, y + 2, 112, _VERIFIED if cover.verified else _UNVERIFIED)
+    y += 6
+    for words in cover.words:
+        y = document.paragraph(LEFT, y, 112, words) + 2
     y, left = 235.0, LEFT + 126
     document.text(left, y, "Contents", 11, strong=True)
     for chapter, page in cover.contents:
         y += 6
         document.text(left, y, chapter, 9, grey=0.2)
         document.text(RIGHT, y, str(page), 9, align="right", grey=0.2)
+
+
+def _words(report: Mapping[str, Any], with_arrows: bool, verified: bool) -> list[str]:
+    """Say how to read the steps, and how far the order is to be trusted."""
+    if not with_arrows:
+        return [_BOOK, _VERIFIED if verified else _UNVERIFIED]
+    if verified:
+        return [f"{_BOOK} {_ARROWS}", _TRIED]
+    plan = report["assembly"]
+    n, proved = len(plan["motions"]), plan.get("proved", 0)
+    return [f"{_BOOK} {_ARROWS}", _NOT_ALL.format(f"{proved} of {n} pieces")]
 
 
 def _facts(pieces: Sequence[Piece], report: Mapping[str, Any], n_plates: int) -> list[tuple[str, str]]:

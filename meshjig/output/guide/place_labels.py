@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -14,6 +15,7 @@ __all__ = ["Label", "place_labels"]
 _LEAST = 24  # visible pixels below which a piece is not pointed at
 _TURNS = 24  # directions in which room is looked for beside a piece
 _FAR = 12  # distances
+_ON_ARROW, _WIDE = np.linspace(0.3, 1, 8), 4.0  # pixels around the outer part of an arrow are taken
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,12 @@ class Label:
     tip: tuple[float, float] | None  # where its line ends, if it is not on its piece
 
 
-def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, float]]) -> list[Label]:
+def place_labels(
+    piece: Ints,
+    new: Sequence[int],
+    size: Sequence[tuple[float, float]],
+    along: Sequence[Floats] | None = None,
+) -> list[Label]:
     """Find room for the numbers of the new pieces.
 
     Parameters
@@ -36,6 +43,8 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
         The pieces that get a number.
     size : sequence of (float, float)
         Width and height of each number, pixels.
+    along : sequence of (2,) float64, optional
+        Arrows that begin so far from each piece, pixels; numbers leave them room.
 
     Returns
     -------
@@ -45,6 +54,7 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
     taken: list[Floats] = []
     labels: list[Label] = []
     spots = [_widest(piece == one) for one in new]
+    arrows = [_on_arrow(spot, arrow) for spot, arrow in zip(spots, along or [], strict=along is not None)]
     crowd = [_summed(np.isin(piece, list(new))), _summed(piece >= 0)]
     order = sorted(range(len(new)), key=lambda i: -spots[i][2])
     for i in order:
@@ -53,14 +63,22 @@ def place_labels(piece: Ints, new: Sequence[int], size: Sequence[tuple[float, fl
             continue
         w, h = size[i]
         box = np.array([x - w / 2, y - h / 2, x + w / 2, y + h / 2])
-        if room >= 0.5 * np.hypot(0.8 * w, h) and not _hits(box, taken):
+        others = [boxes for j, arrow in enumerate(arrows) if j != i for boxes in arrow]
+        if room >= 0.5 * np.hypot(0.8 * w, h) and not _hits(box, taken + others):
             labels.append(Label(new[i], (x, y), None))
         else:
-            box = _beside(x, y, w, h, crowd, taken)
+            box = _beside(x, y, w, h, crowd, [*taken, *chain.from_iterable(arrows)])
             middle = (float(box[0] + box[2]) / 2, float(box[1] + box[3]) / 2)
             labels.append(Label(new[i], middle, (x, y)))
         taken.append(box)
     return sorted(labels, key=lambda label: label.piece)
+
+
+def _on_arrow(spot: tuple[float, float, float], along: Floats) -> list[Floats]:
+    """Boxes over the arrow that points at a spot; none where its piece is not seen."""
+    x, y, room = spot
+    middles = [x, y] + _ON_ARROW[:, None] * along
+    return list(np.hstack([middles - _WIDE, middles + _WIDE])) if room > 0 else []
 
 
 def _widest(mask: Bools) -> tuple[float, float, float]:

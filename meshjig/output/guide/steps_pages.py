@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshjig.mesh.arrays import Floats
+from meshjig.mesh.measure import unit
+from meshjig.output.guide.arrows import Arrows, arrow_at, arrow_shape, arrows_on_paper
 from meshjig.output.guide.cameras import Camera, cameras, choose_cameras
 from meshjig.output.guide.pages import BOTTOM, LEFT, RIGHT, TOP, Document, Page, tag_size, text_width, wrapped
 from meshjig.output.guide.place_labels import Label, place_labels
@@ -28,6 +30,8 @@ _PIXELS = 5.0  # a mm
 _TAG = 7.0  # points
 _WORDS = 8.0
 _MARGIN = 0.96  # of a picture, filled by what it shows
+_BEHIND = 0.2  # cosine between an arrow and the line of sight from which on it comes from behind
+_GREY = 0.6  # of such an arrow
 _CLOSEST = 1.7  # how much larger first steps are drawn than the whole model
 
 
@@ -41,6 +45,8 @@ class _Shot:
     place: str
     rgb: NDArray[np.uint8]
     labels: list[Label]
+    along: dict[int, Floats]  # by piece: where from its arrow comes, (2,), pixels
+    behind: list[int]  # pieces that go in from behind
 
 
 @dataclass(frozen=True)
@@ -63,7 +69,12 @@ class _Grid:
         return (BOTTOM - _START + _GAP) / self.rows - _GAP - self.caption
 
 
-def steps_pages(joined: JoinedPieces, steps: Sequence[Sequence[int]], whole: DrawWhole) -> list[Page]:
+def steps_pages(
+    joined: JoinedPieces,
+    steps: Sequence[Sequence[int]],
+    whole: DrawWhole,
+    arrows: Arrows | None = None,
+) -> list[Page]:
     """Draw all steps.
 
     Parameters
@@ -71,13 +82,15 @@ def steps_pages(joined: JoinedPieces, steps: Sequence[Sequence[int]], whole: Dra
     joined : JoinedPieces
     steps : sequence of sequence of int, pieces counted from 1
     whole : callable, gives a picture of the puzzle put together, for where the last page has room
+    arrows : Arrows, optional
+        How pieces go in.
 
     Returns
     -------
     list of callables, each draws a page
     """
     model = proxy_model(joined, steps)
-    places = cameras(model)
+    places = cameras(model, below=arrows is not None)
     extent = np.max([place.extent for place in places], axis=0)
     most = max(map(len, steps), default=0)
     grids = [_Grid(*grid, most) for grid in _GRIDS]
@@ -90,15 +103,22 @@ def steps_pages(joined: JoinedPieces, steps: Sequence[Sequence[int]], whole: Dra
             continue
         placed, new = model.until(number), [piece - 1 for piece in step]
         points = model.V[: model.first_vertex[number + 1]]
-        chosen = choose_cameras(model, placed, new, places, last)
+        chosen = choose_cameras(model, placed, new, places, last, arrows)
         for part, (camera, mine) in enumerate(chosen):
             place = places[camera]
-            frame = _frame(grid, _MARGIN * scale, place, points)
+            shown = [points] if arrows is None else [points, arrows.start[mine]]
+            frame = _frame(grid, _MARGIN * scale, place, np.concatenate(shown))
             ghost = silhouette(PlacedFaces(model.scene, len(model.scene.F)), place.view, frame)
             picture = draw_step(placed, place.view, frame, mine if part else new, ghost)
-            labels = place_labels(picture.piece, mine, [_tag_pixels(piece) for piece in mine])
+            sizes = [_tag_pixels(piece) for piece in mine]
+            along: dict[int, Floats] = {}
+            behind: list[int] = []
+            if arrows is not None:
+                along = dict(zip(mine, arrows_on_paper(arrows, mine, place.view, frame.scale), strict=True))
+                behind = [piece for piece in mine if _goes_away(arrows, piece, place)]
+            labels = place_labels(picture.piece, mine, sizes, list(along.values()) if along else None)
             name = "abcdefgh"[part % 8] if len(chosen) > 1 else ""
-            shots.append(_Shot(number + 1, name, mine, place.words, picture.rgb, labels))
+            shots.append(_Shot(number + 1, name, mine, place.words, picture.rgb, labels, along, behind))
         last = chosen[0][0]
     a_page = grid.columns * grid.rows
     pages = [shots[k : k + a_page] for k in range(0, len(shots), a_page)]
@@ -106,17 +126,22 @@ def steps_pages(joined: JoinedPieces, steps: Sequence[Sequence[int]], whole: Dra
 
 
 def _frame(grid: _Grid, scale: float, place: Camera, points: Floats) -> Frame:
-    """Frame what is placed: never smaller than at a scale (mm a unit), and not much larger."""
+    """Frame what is placed, and its arrows: not much larger than at a scale (mm a unit)."""
     plane = place.view.on_plane(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
+    least = np.minimum(place.view.centre - place.extent / 2, low)
+    most = np.maximum(place.view.centre + place.extent / 2, high)
     size = np.array([grid.width, grid.height])
     fitting = _MARGIN * float((size / np.maximum(high - low, 1e-9)).min())
-    scale = float(np.clip(fitting, scale, _CLOSEST * scale))
-    middle = place.view.centre
-    room = np.maximum(place.extent / (2 * _MARGIN) - size / (2 * scale), 0)  # to stay within the model
-    middle = np.clip((low + high) / 2, middle - room, middle + room)
+    scale = min(fitting, _CLOSEST * scale)
+    room = np.maximum((most - least) / (2 * _MARGIN) - size / (2 * scale), 0)  # to stay within the model
+    middle = np.clip((low + high) / 2, (least + most) / 2 - room, (least + most) / 2 + room)
     pixels = np.round(size * _PIXELS).astype(int).tolist()
     return Frame(pixels[0], pixels[1], scale * _PIXELS, (float(middle[0]), float(middle[1])))
+
+
+def _goes_away(arrows: Arrows, piece: int, place: Camera) -> bool:
+    return bool(unit(arrows.seat[piece] - place.view.eye) @ arrows.way[piece] > _BEHIND)
 
 
 def _tag_pixels(piece: int) -> tuple[float, float]:
@@ -150,6 +175,9 @@ def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, document: Document)
     top = y + grid.caption
     document.picture(x, top, grid.width, grid.height, shot.rgb)
     for label in shot.labels:
+        if label.piece in shot.along:
+            _draw_arrow(shot, label, x, top, document)
+    for label in shot.labels:
         if label.tip is not None:
             end = x + label.tip[0] / _PIXELS, top + label.tip[1] / _PIXELS
             document.line(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, *end, width=0.25)
@@ -157,3 +185,15 @@ def _draw_shot(shot: _Shot, x: float, y: float, grid: _Grid, document: Document)
     for label in shot.labels:
         number = str(label.piece + 1)
         document.tag(x + label.at[0] / _PIXELS, top + label.at[1] / _PIXELS, number, _TAG)
+
+
+def _draw_arrow(shot: _Shot, label: Label, x: float, y: float, document: Document) -> None:
+    height, width = shot.rgb.shape[:2]
+    found = arrow_at(label, _tag_pixels(label.piece), shot.along[label.piece], (width, height))
+    if found is not None:
+        start, tip = (np.array([x, y]) + at / _PIXELS for at in found)
+        document.shape(
+            arrow_shape(start.tolist(), tip.tolist()),
+            width=0.2,
+            grey=_GREY if label.piece in shot.behind else 1.0,
+        )

@@ -24,7 +24,12 @@ _LEAST = 16  # pixels
 
 
 def write_preview(
-    path: Path, pieces: Sequence[Piece], up: Floats | None = None, size: int = 1600, apart: float = 0.6
+    path: Path,
+    pieces: Sequence[Piece],
+    up: Floats | None = None,
+    size: int = 1600,
+    apart: float = 0.6,
+    ways: Floats | None = None,
 ) -> None:
     """Draw a square sheet of four: above, the puzzle from two sides; below, the same exploded.
 
@@ -34,7 +39,9 @@ def write_preview(
     pieces : sequence of Piece, at least one
     up : (3,) float64, unit; guessed where it is not given, see `guess_up`
     size : int, pixels along each side of the sheet
-    apart : float, how much farther from the middle pieces stand when exploded
+    apart : float, how far pieces are moved when exploded, see `explosion`
+    ways : (p, 3) float64, unit, optional
+        In which direction each piece goes out.
     """
     from PIL import Image
 
@@ -43,7 +50,7 @@ def write_preview(
     sheet = np.full((size, size, 3), 255, np.uint8)
     half = size // 2
     whole = scene_of_pieces(pieces)
-    W = exploded(V, piece_of_vertex, apart)
+    W = exploded(V, piece_of_vertex, apart, ways)
     for row, (points, scene, line, fog) in enumerate(
         [(V, whole, 1.0, 0.0), (W, shifted(whole, W), 0.75, 0.5)]
     ):

@@ -1,5 +1,9 @@
 // Everything together: one state, the ways to change it, and the keys.
 
+const FIRST = 700, MORE = 400; // milliseconds in which the first piece of a step goes in, and each after it
+
+const slideTime = (pieces) => pieces.length && FIRST + MORE * (pieces.length - 1);
+
 class Viewer {
   constructor(stage, data) {
     Object.assign(this, { stage, data });
@@ -103,8 +107,16 @@ class Viewer {
   }
 
   step(step) {
-    const last = this.data.steps.length + 1;
+    const last = this.data.steps.length + 1, before = this.state.step;
     this.set({ step: Math.min(Math.max(step, 1), last), chosen: null, scope: "all" });
+    this.goIn(this.state.step > before || (step === 1 && before === last));
+  }
+
+  // The pieces of a step slide in, where there is a plan of how.
+  goIn(forward) {
+    const ids = forward ? this.data.steps[this.state.step - 1] ?? [] : [];
+    const pieces = ids.map((id) => this.data.pieces[id - 1]).filter((piece) => piece.axis);
+    animate(slideTime(pieces), (t) => this.stage.slide(pieces, t), "slide");
   }
 
   stepBy(by) {
@@ -115,16 +127,17 @@ class Viewer {
     const last = this.data.steps.length + 1;
     if (this.state.playing) return this.pause();
     if (this.state.step >= last) this.step(1);
-    this.set({
-      playing: setInterval(() => {
-        this.stepBy(1);
-        if (this.state.step >= last) this.pause();
-      }, 1100),
-    });
+    const next = () => {
+      this.stepBy(1);
+      if (this.state.step >= last) this.pause();
+      else this.state.playing = setTimeout(next, wait());
+    };
+    const wait = () => 400 + Math.max(FIRST, slideTime(this.data.steps[this.state.step - 1]));
+    this.set({ playing: setTimeout(next, wait()) });
   }
 
   pause() {
-    clearInterval(this.state.playing);
+    clearTimeout(this.state.playing);
     this.set({ playing: null });
   }
 

@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 
 from meshjig.errors import InputError, OutputError
+from meshjig.mesh.arrays import Floats
 from meshjig.mesh.measure import face_areas
 from meshjig.mesh.mesh import concatenate
-from meshjig.output.order import assembly_of
+from meshjig.output.order import assembly_of, ways_out
 from meshjig.output.pictures.view import up_of, view_of
 from meshjig.output.piece import Piece, explosion
 from meshjig.output.report import report_text, title_of
@@ -48,8 +49,8 @@ def write_viewer(
     path : Path
     pieces : sequence of Piece, at least one
     report : mapping
-        ``input`` gives the title, ``pieces`` areas and neighbours, ``assembly`` the order, ``up`` which
-        way it stands; what is missing is measured, left out, or made.
+        ``input`` gives the title, ``pieces`` areas and neighbours, ``assembly`` the order and the motions,
+        ``up`` which way it stands; what is missing is measured, left out, or made.
     plates : mapping, optional
         The plate that holds each piece, by the piece's name.
     core : sequence of Piece
@@ -131,16 +132,21 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
     up = up_of(report, V, F)
     view = view_of(V, up, *_FRONT)
     off = V - (V.min(axis=0) + V.max(axis=0)) / 2
-    height = off @ up
-    assembly = assembly_of(pieces, report)
+    assembly, ways = assembly_of(pieces, report), ways_out(report, len(pieces))
+    moves = explosion(V, piece_of_vertex, ways)
+    wide, high = _extent(off, up)
+    grown = (
+        (wide, high) if ways is None else np.subtract(_extent(off + moves[piece_of_vertex], up), (wide, high))
+    )
     listed = report.get("pieces", ())
     told = listed if len(listed) == len(pieces) else [{}] * len(pieces)
     return {
         "up": up,
         "eye": -view.axes[2],
         "radius": float(np.linalg.norm(np.ptp(V, axis=0))) / 2,
-        "wide": float(np.linalg.norm(off - height[:, None] * up, axis=1).max()),
-        "high": float(np.abs(height).max()),
+        "wide": wide,
+        "high": high,
+        "grown": [float(x) for x in grown],
         "steps": assembly.steps,
         "verified": assembly.verified,
         "picture": _picture(pieces),
@@ -149,15 +155,22 @@ def _data(pieces: Sequence[Piece], report: Mapping[str, Any], plates: Mapping[st
                 "id": number,
                 "colour": _hex(piece.colour),
                 "way": move,
+                "axis": None if axis is None or not axis.any() else axis,
                 "area": entry.get("area_mm2", face_areas(piece.V, piece.F).sum() / 2),
                 "neighbours": entry.get("neighbours", []),
                 "plate": plates.get(piece.name),
             }
-            for number, (piece, move, entry) in enumerate(
-                zip(pieces, explosion(V, piece_of_vertex), told, strict=True), 1
+            for number, (piece, move, axis, entry) in enumerate(
+                zip(pieces, moves, [None] * len(pieces) if ways is None else ways, told, strict=True), 1
             )
         ],
     }
+
+
+def _extent(off: Floats, up: Floats) -> tuple[float, float]:
+    """How far points (n, 3) are from the upward axis and from the middle's height at most, mm."""
+    height = off @ up
+    return float(np.linalg.norm(off - height[:, None] * up, axis=1).max()), float(np.abs(height).max())
 
 
 def _picture(pieces: Sequence[Piece]) -> str | None:

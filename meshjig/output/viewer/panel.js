@@ -6,6 +6,7 @@ const PLAY = `<svg viewBox="0 0 24 24"><path class="full" d="M8 5v14l11-7z"/></s
 const PAUSE = `<svg viewBox="0 0 24 24"><path d="M9 6v12M15 6v12"/></svg>`;
 const CLOSE = `<svg viewBox="0 0 24 24"><path d="m6 6 12 12M18 6 6 18"/></svg>`;
 const NARROW = 760; // pixels; below, the panel is a sheet at the bottom
+const PLANNED = "This order was planned, but not every piece was found to go straight in: some may have to wait for others.";
 const SCOPES = { all: "All", near: "Neighbours", one: "Alone" };
 
 class Panel {
@@ -16,6 +17,7 @@ class Panel {
     $("summary").textContent = `${n} piece${n === 1 ? "" : "s"}`;
     $("step").max = data.steps.length + 1;
     $("unverified").hidden = data.verified;
+    if (data.pieces.some((piece) => piece.axis)) $("unverified").textContent = PLANNED;
     document.querySelector("[value=picture]").closest("label").hidden = !data.mesh.look;
     this.listen();
   }

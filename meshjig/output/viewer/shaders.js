@@ -4,6 +4,7 @@ const VERTEX = `
 attribute float piece;
 uniform sampler2D tints;  // colour in linear light; alpha is 0 where a piece is hidden
 uniform sampler2D moves;  // the way out; w is how much of its colour a piece keeps
+uniform sampler2D slides;  // how far from its place a piece is that is going in
 uniform float amount;
 flat varying vec4 tint;
 varying vec3 toEye;
@@ -28,7 +29,7 @@ void main() {
   #else
     tint.a = move.w;
   #endif
-  vec4 seen = modelViewMatrix * vec4(position + amount * move.xyz, 1.0);
+  vec4 seen = modelViewMatrix * vec4(position + amount * move.xyz + texelFetch(slides, row, 0).xyz, 1.0);
   toEye = -seen.xyz;
   bent = normalMatrix * normal;
   #ifdef UV

@@ -2,6 +2,7 @@
 
 const TOO_SLOW = 70; // milliseconds for a frame
 const CORE = new THREE.Color("#9a9a9a"); // stays in the middle, and is no piece
+const LIFT = 0.7; // radii: how far outside a piece begins to go in
 const STILL = 160; // milliseconds after which what moved has come to rest; twice that on a slow machine
 
 class Stage {
@@ -15,10 +16,13 @@ class Stage {
     const rows = Math.ceil((data.pieces.length + data.core) / ROW);
     this.tints = table(rows);
     this.moves = table(rows);
+    this.slides = table(rows);
+    this.lifted = [];
     data.pieces.forEach((piece, k) => this.moves.image.data.set([...piece.way, 1], 4 * k));
     this.uniforms = {
       tints: { value: this.tints },
       moves: { value: this.moves },
+      slides: { value: this.slides },
       amount: { value: 0 },
       picture: { value: false },
       pale: { value: new THREE.Color() },
@@ -56,7 +60,7 @@ class Stage {
     this.controls.update();
     this.uniforms.amount.value = this.amount;
     const away = this.camera.position.length();
-    const radius = 1.1 * this.data.radius * (1 + this.amount);
+    const radius = 1.1 * this.data.radius * (1 + this.amount + (this.lifted.length ? LIFT : 0));
     this.camera.near = Math.max(away - radius, radius / 200);
     this.camera.far = away + radius;
     this.camera.updateProjectionMatrix();
@@ -100,10 +104,14 @@ class Stage {
 
   // How far the eye must be for the whole model to be in the frame.
   get distance() {
-    const { wide, high } = this.data;
+    return this.distanceAt(this.amount);
+  }
+
+  distanceAt(amount) {
+    const wide = this.data.wide + amount * this.data.grown[0], high = this.data.high + amount * this.data.grown[1];
     const slope = Math.tan((this.camera.fov * Math.PI) / 360);
     const far = Math.max((high + 0.3 * wide) / slope, wide / (slope * this.camera.aspect));
-    return (1.06 * far + wide) * (1 + this.amount);
+    return 1.06 * far + wide;
   }
 
   home(gently = true) {
@@ -154,10 +162,23 @@ class Stage {
 
   // The camera backs off as pieces part, so that all stay in the frame.
   explode(amount) {
-    const factor = (1 + amount) / (1 + this.amount);
+    const factor = this.distanceAt(amount) / this.distance;
     this.amount = amount;
     this.controls.target.multiplyScalar(factor);
     this.camera.position.multiplyScalar(factor);
+    this.draw();
+  }
+
+  // Pieces go in one after the other, each along its axis; t goes from 0 to 1.
+  slide(pieces, t) {
+    const slides = this.slides.image.data, out = LIFT * this.data.radius;
+    for (const piece of this.lifted) slides.fill(0, 4 * piece.id - 4, 4 * piece.id);
+    pieces.forEach(({ id, axis }, k) => {
+      const left = 1 - Math.min(Math.max(t * pieces.length - k, 0), 1);
+      slides.set(axis.map((x) => left * out * x), 4 * id - 4);
+    });
+    this.lifted = t < 1 ? pieces : [];
+    this.slides.needsUpdate = true;
     this.draw();
   }
 
@@ -244,14 +265,16 @@ function drawnByProcessor() {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
+const running = {};
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
-function animate(duration, show) {
-  if (!duration || calm.matches) return show(1);
+// What moves in the same lane ends what moved there before.
+function animate(duration, show, lane = "view") {
   const start = performance.now(), mine = {};
-  animate.running = mine;
+  running[lane] = mine;
+  if (!duration || calm.matches) return show(1);
   const tick = (now) => {
-    if (animate.running !== mine) return;
+    if (running[lane] !== mine) return;
     const t = Math.min(Math.max((now - start) / duration, 0), 1);
     show(t === 1 ? 1 : t * t * (3 - 2 * t));
     if (t < 1) requestAnimationFrame(tick);

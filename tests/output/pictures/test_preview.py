@@ -70,6 +70,17 @@ def test_exploded_pieces_are_apart(tmp_path, pieces):
     assert patches(sheet[300:, :300]) == 6
 
 
+def test_pieces_part_along_their_ways_where_these_are_known(tmp_path, pieces):
+    up_and_down = np.outer((-1.0) ** np.arange(len(pieces)), UP)
+    write_preview(tmp_path / "preview.png", pieces, up=UP, size=400, ways=up_and_down)
+    shown = (np.asarray(Image.open(tmp_path / "preview.png")) != 255).any(axis=2)
+    whole, apart = (
+        np.ptp(np.flatnonzero(half.any(axis=1))) / np.ptp(np.flatnonzero(half.any(axis=0)))
+        for half in (shown[:200, :200], shown[200:, :200])
+    )
+    assert apart > 1.25 * whole  # taller, and no wider
+
+
 def frames(path):
     with Image.open(path) as picture:
         for k in range(picture.n_frames):

@@ -1,4 +1,5 @@
 import html
+import json
 import re
 
 import numpy as np
@@ -70,6 +71,34 @@ def test_view_opens_the_page_of_a_folder(tmp_path, monkeypatch):
     monkeypatch.setattr("webbrowser.open", lambda address: False)
     with pytest.raises(OutputError, match="browser"):
         open_viewer(tmp_path)
+
+
+def data_of(path):
+    return json.loads(re.search(r'id="data">(.*?)</script>', path.read_text(encoding="utf-8"))[1])
+
+
+def test_the_page_knows_how_each_piece_goes_out_and_how_far_apart_all_get(tmp_path, wheel):
+    none = data_of(wheel)
+    assert [piece["axis"] for piece in none["pieces"]] == [None] * 6
+    assert none["grown"] == pytest.approx([none["wide"], none["high"]])
+    axes = [[0, 0, 1], [0, 0, 2], None, [1, 0, 0], [0, 1, 0], [0, -1, 0]]
+    motions = {str(k + 1): {"axis": axis} for k, axis in enumerate(axes)}
+    plan = {"steps": [[k] for k in range(1, 7)], "motions": motions, "verified": True}
+    write_viewer(tmp_path / "viewer.html", ring(), {**report_of(ring()), "assembly": plan})
+    told = data_of(tmp_path / "viewer.html")
+    for piece, axis, before in zip(told["pieces"], axes, none["pieces"], strict=True):
+        if axis is None:
+            assert (piece["axis"], piece["way"]) == (None, before["way"])
+        else:
+            assert piece["axis"] == pytest.approx(np.array(axis) / max(map(abs, axis)))
+            along = np.dot(piece["way"], piece["axis"])
+            assert along > 0
+            assert piece["way"] == pytest.approx(along * np.array(piece["axis"]), abs=1e-3)
+    lowest = [p.V @ [0, 1, 0] + q["way"][1] for p, q in zip(ring(), told["pieces"], strict=True)]
+    low, high = min(map(min, lowest)), max(map(max, lowest))
+    whole = np.concatenate([p.V for p in ring()])[:, 1]
+    middle = (whole.min() + whole.max()) / 2
+    assert told["high"] + told["grown"][1] == pytest.approx(max(high - middle, middle - low), rel=1e-3)
 
 
 def test_the_puzzle_stands_as_its_report_says(tmp_path, wheel):

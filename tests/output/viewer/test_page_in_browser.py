@@ -188,6 +188,75 @@ def test_on_a_phone_everything_fits_and_a_tap_chooses(wheel):
         assert phone.errors == []
 
 
+@pytest.fixture(scope="module")
+def planned(tmp_path_factory):
+    """The ring, of which every piece goes out to the side on which it is."""
+    pieces = ring()
+    motions = {str(k + 1): {"axis": (p.V.mean(axis=0) / 50).tolist()} for k, p in enumerate(pieces)}
+    motions["6"]["axis"] = None
+    plan = {"steps": [[1], [2, 3], [4], [5], [6]], "motions": motions, "verified": True}
+    path = tmp_path_factory.mktemp("planned") / "viewer.html"
+    write_viewer(path, pieces, {**report_of(pieces), "assembly": plan})
+    return path
+
+
+def middle_of(page, piece):
+    page.settle()
+    ids = np.array(page.value("[...window.viewer.stage.ids(300, 240)]")).reshape(240, 300)
+    return np.argwhere(ids == piece).mean(axis=0)
+
+
+@needs_browser
+def test_a_piece_of_a_plan_comes_in_along_its_way_and_nobody_doubts_the_order(desktop, planned):
+    page = opened(desktop, planned)
+    assert page.value("getComputedStyle($('unverified')).display") == "none"
+    page.value("window.viewer.step(2)")
+    page.settle()
+    seats = {k: middle_of(page, k) for k in (1, 2, 3)}
+    new = "[2, 3].map((id) => window.viewer.data.pieces[id - 1])"
+    page.value(f"window.viewer.stage.slide({new}, 0.25)")  # the first of two is half in
+    off = {k: middle_of(page, k) - seats[k] for k in (1, 2, 3)}
+    assert np.linalg.norm(off[1]) < 1
+    assert 10 < np.linalg.norm(off[2]) < 0.7 * np.linalg.norm(off[3])
+    assert off[2] @ off[3] > 0  # neighbours in a ring, and both go outward
+    assert off[3] @ (seats[3] - seats[1]) > 0
+    page.value(f"window.viewer.stage.slide({new}, 1)")
+    for k in (2, 3):
+        assert np.linalg.norm(middle_of(page, k) - seats[k]) < 1
+    assert page.errors == []
+
+
+@needs_browser
+def test_a_step_forward_lets_its_pieces_slide_in_and_one_back_does_not(desktop, planned):
+    page = opened(desktop, planned)
+    moving = {"name": "prefers-reduced-motion", "value": "no-preference"}
+    page.call("Emulation.setEmulatedMedia", features=[moving])
+    try:
+        lifted = "window.viewer.stage.lifted.map((piece) => piece.id)"
+        page.value("window.viewer.step(1)")
+        page.wait_for(f"!{lifted}.length")
+        page.press(".")
+        assert page.wait_for(f"{lifted}.length && {lifted}") == [2, 3]
+        page.wait_for(f"!{lifted}.length")
+        assert page.value("window.viewer.stage.slides.image.data.every((x) => x === 0)")
+        page.press(",")
+        assert page.value(lifted) == []
+        page.value("window.viewer.step(5)")  # a piece of which nobody knows how it goes in
+        assert page.value(lifted) == []
+    finally:
+        page.call("Emulation.setEmulatedMedia", features=[])
+    assert page.errors == []
+
+
+@needs_browser
+def test_a_plan_that_was_not_proved_is_called_planned(desktop, planned, tmp_path):
+    page = planned.read_text(encoding="utf-8").replace('"verified":true', '"verified":false')
+    (tmp_path / "viewer.html").write_text(page, encoding="utf-8")
+    told = text(opened(desktop, tmp_path / "viewer.html"), "unverified")
+    assert "was planned" in told
+    assert "Nobody" not in told
+
+
 @needs_browser
 def test_the_core_stays_in_the_middle_is_no_piece_and_can_be_hidden(desktop, tmp_path):
     core = Piece("core_1", *sphere(500, 20.0), (0.6, 0.6, 0.6))
