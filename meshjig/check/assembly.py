@@ -51,12 +51,12 @@ class Obstacles:
         self.solids = solids
         self.low, self.high = (np.array([f(X, axis=0) for X, _ in solids]) for f in (np.min, np.max))
 
-    def near(self, k: int, there: Ints, way: Floats) -> Ints:
-        """Give of some pieces those that the box of piece k meets along a way."""
-        return there[self._meets(k, there, way)]
+    def near(self, k: int, there: Ints, way: Floats, shift: Floats | None = None) -> Ints:
+        """Give of some pieces those that the box of piece k meets along a way, moved by a shift first."""
+        return there[self._meets(k, there, way, np.zeros(3) if shift is None else shift)]
 
-    def _meets(self, k: int, there: Ints, way: Floats) -> Bools:
-        low, high, lows, highs = self.low[k], self.high[k], self.low[there], self.high[there]
+    def _meets(self, k: int, there: Ints, way: Floats, shift: Floats) -> Bools:
+        low, high, lows, highs = self.low[k] + shift, self.high[k] + shift, self.low[there], self.high[there]
         still = np.abs(way) < 1e-12
         with np.errstate(divide="ignore", invalid="ignore"):
             first, last = (lows - high) / way, (highs - low) / way
@@ -119,20 +119,20 @@ def judge_assembly(
     found = _proved(pieces.solids, motions, known)
     held = {k: met for k, (met, _) in found.items() if met is not None}
     unknown = sorted({*range(len(pieces))} - {*known})
+    volume_error, wrong = _volume_errors(pieces, plan.laid_out)
     checks = AssemblyChecks(
         len(pieces),
         len(known) - len(held),
         sum(met is None and press == 0 for met, press in found.values()),
         max((press for met, press in found.values() if met is None), default=0.0),
         {pieces.names[k]: [pieces.names[q] for q in met] for k, met in sorted(held.items()) if met},
-        *_volume_errors(pieces, plan.laid_out)[:1],
+        volume_error,
     )
     failures = {}
     spared = {place[name] for name in exempt_pieces if name in place}
     blamed = {k for k, met in held.items() if k not in spared and not (met and spared >= {*met})}
     if blamed or unknown:
         failures["assembly"] = [pieces.names[k] for k in sorted({*blamed, *unknown})]
-    wrong = _volume_errors(pieces, plan.laid_out)[1]
     if wrong:
         failures["volume_error"] = wrong
     return checks, failures
@@ -187,7 +187,9 @@ def _held(
     obstacles: Obstacles, k: int, there: Ints, way: Floats, shift: Floats, give: float
 ) -> tuple[list[int] | None, float]:
     far = float(np.linalg.norm(shift))
-    near = np.union1d(obstacles.near(k, there, way), obstacles.near(k, there, shift) if far else there[:0])
+    near = obstacles.near(k, there, way, shift)
+    if far:
+        near = np.union1d(near, obstacles.near(k, there, shift))
     if not len(near):
         return None, 0.0
     staying, of = obstacles.together(near)

@@ -124,6 +124,14 @@ def test_what_is_held_goes_out_after_a_shift_that_is_free_itself():
     assert checks.held_by == {"piece_002": ["piece_003"]}
 
 
+def test_what_is_in_the_way_of_a_piece_once_it_is_shifted_is_found():
+    roof, tile = box([20, 0, 5], [30, 10, 6]), box([0, 0, 0], [10, 10, 2])
+    assert judge_assembly([roof, tile], planned([roof, tile]))[1] == {}
+    aside = {"piece_002": [20.0, 0.0, 0.0]}
+    failures = judge_assembly([roof, tile], planned([roof, tile], shift=aside))[1]
+    assert failures == {"assembly": ["piece_002"]}
+
+
 @pytest.mark.parametrize("way", [None, [0, 0, 0], [np.nan, 0, 1], [0, 1]])
 def test_a_piece_without_a_way_or_a_place_in_the_order_is_not_proved(way):
     pieces = coupon()[:3]
