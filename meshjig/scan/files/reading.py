@@ -186,5 +186,6 @@ _READERS: dict[str, Callable[[Path, PictureReader], FileMesh]] = {
     "gltf": _read_gltf,
     "3mf": _read_3mf,
 }
-_OF_PYMESHLAB = ("obj", "stl", "ply", "off")  # what it is better at than no reader
+# what it is better at than no reader; of OFF it follows faces to vertices beyond its memory
+_OF_PYMESHLAB = ("obj", "stl", "ply")
 _SMALL_LOSS = 0.1  # of the faces: what a note is enough for
